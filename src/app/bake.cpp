@@ -5,6 +5,7 @@
 #include "app/commands.h"
 #include "app/names.h"
 #include "cli/progress.h"
+#include "cli/signals.h"
 #include "cli/usage.h"
 #include "image/write.h"
 #include "io/output_file.h"
@@ -205,6 +206,7 @@ const std::vector<std::string>& bake_kinds() {
 int run_bake(const Arguments& arguments) {
   if (arguments.empty()) cli::fail_usage("what to bake is missing: {}", fmt::join(bake_kinds(), ", "));
   const Arguments rest(arguments.begin() + 1, arguments.end());
+  cli::clean_up_on_signals();
   if (arguments.front() == "noise") return bake_noise(rest);
   if (arguments.front() == "keys") return bake_keys(rest);
   if (arguments.front() == "points") return bake_points(rest);

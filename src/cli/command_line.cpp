@@ -114,6 +114,17 @@ void refuse_equals_after_short_name(const CLI::App& options, const Arguments& ar
   }
 }
 
+// CLI11 takes "--size" in "-o --size 16x16" as the value of -o.
+void refuse_options_as_values(const CLI::App& options) {
+  for (const CLI::Option* option : options.get_options()) {
+    if (option->count() == 0 || option->get_items_expected_max() == 0) continue;
+    for (const std::string& value : option->results()) {
+      if (value.starts_with("--") && options.get_option_no_throw(value) != nullptr)
+        fail_usage("{} lacks its value: '{}' is an option", option->get_name(), value);
+    }
+  }
+}
+
 // CLI11 says "--size: 1 required WIDTHxHEIGHT missing" and "--size: At Most 1 required but received 2".
 std::string one_line(const CLI::ParseError& error) {
   std::string text = error.what();
@@ -192,6 +203,7 @@ bool parse(CLI::App& options, const Arguments& arguments) {
     hint_at_file(arguments);
     throw UsageError(one_line(error));
   }
+  refuse_options_as_values(options);
   if (options.remaining_size() > 0) hint_at_file(arguments);
   refuse_extras(options);
   log_from(level);

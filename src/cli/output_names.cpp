@@ -1,6 +1,7 @@
 #include "cli/output_names.h"
 
 #include <algorithm>
+#include <charconv>
 #include <regex>
 #include <vector>
 
@@ -68,6 +69,17 @@ OutputNames::OutputNames(const std::string& output, bool sequence) {
 std::filesystem::path OutputNames::picture(int frame) const {
   if (digits_ < 0) return before_ + after_;
   return fmt::format("{}{:0{}}{}", before_, frame, digits_, after_);
+}
+
+std::optional<int> OutputNames::frame_of(std::string_view file) const {
+  if (digits_ < 0) return 0;
+  const std::string before = std::filesystem::path(before_).filename().string();
+  if (!file.starts_with(before)) return {};
+  file.remove_prefix(before.size());
+  int frame = 0;
+  const auto [end, error] = std::from_chars(file.data(), file.data() + file.size(), frame);
+  if (error != std::errc() || frame < 0) return {};
+  return frame;
 }
 
 std::filesystem::path OutputNames::aov(int frame, std::string_view name) const {

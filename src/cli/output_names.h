@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,8 @@ class OutputNames {
 
   bool is_exr() const { return extension_ == ".exr"; }
   std::filesystem::path picture(int frame) const;
+  // The number in the name of a file, without its folder; absent where it can't be a frame's, 0 without numbers.
+  std::optional<int> frame_of(std::string_view file) const;
   // "x.shadow.png" beside "x.png".
   std::filesystem::path aov(int frame, std::string_view name) const;
 

@@ -151,6 +151,14 @@ class Usage(TestCase):
                      "--save-preset", preset)
         self.assertIn("angle = 2.0", preset.read_text())
 
+    def test_a_result_takes_no_place_of_a_picture_of_a_long_sequence(self):
+        for name, is_picture in (("x_40000.toml", False), ("x_40000.png", True), ("x_40000.depth.png", True),
+                                 ("x_100000.png", False), ("x_0040000.png", False), ("x_.png", False)):
+            with self.subTest(name):
+                error = self.refuse("render", "missing.glb", "-o", "x_####.png", "--aov", "depth", "--frames", "0:99999",
+                                    "--stats", name, code=2 if is_picture else 1, cwd=self.folder)
+                self.assertEqual("is a picture of this command too" in error, is_picture, error)
+
     def test_a_preset_takes_no_place_of_another_kind_of_file(self):
         notes = self.folder / "README.md"
         notes.write_text("notes\n")
@@ -229,6 +237,11 @@ class Usage(TestCase):
             with self.subTest(arguments):
                 self.assertIn("'-", self.wrong(*arguments))
         self.assertFalse((self.folder / "-").exists())
+
+    def test_an_option_is_no_value_of_another_one(self):
+        error = self.refuse("render", POSTS, "-o", "--size", "16x16", code=2, cwd=self.folder)
+        self.assertEqual(error, "error: --output lacks its value: '--size' is an option\n")
+        self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_a_short_option_takes_no_equals_sign(self):
         for arguments in (["render", POSTS, "-o=o/x.png"], ["compare", POSTS, "--technique", "hard", "-o=o"]):

@@ -12,6 +12,7 @@
 #include "cli/input_files.h"
 #include "cli/options.h"
 #include "cli/output_names.h"
+#include "cli/signals.h"
 #include "cli/usage.h"
 #include "image/picture.h"
 #include "image/write.h"
@@ -185,6 +186,7 @@ int run_diff(const Arguments& arguments) {
   const Metric& metric = find_diff_metric(options.metric);
   check_together(options, metric);
   check_results(options);
+  cli::clean_up_on_signals();
 
   const image::Picture test = read(options, options.test, options.layer);
   const image::Picture reference = read(options, options.reference, options.layer);

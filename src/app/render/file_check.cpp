@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "app/render/frame_files.h"
@@ -15,16 +17,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
+fs::path folder_of(const RenderOptions& options, const cli::OutputNames& names) {
+  return names.picture(options.frames.value_or(cli::FrameRange{}).first).parent_path();
+}
+
+// Whether the picture of a frame has that name, in its folder.
+bool is_name_of_picture(const std::string& name, const RenderOptions& options, const cli::OutputNames& names) {
+  const std::optional<int> frame = names.frame_of(name);
+  const cli::FrameRange range = options.frames.value_or(cli::FrameRange{});
+  if (!frame || (options.frames && (*frame < range.first || *frame > range.last))) return false;
+  const std::vector<fs::path> files = frame_files(options, names, *frame, render::max_shadowed_lights);
+  return std::ranges::find(files, fs::path(name), &fs::path::filename) != files.end();
+}
+
 // A picture whose file is a symbolic link is written to the file that the link names.
 std::vector<fs::path> linked_places(const RenderOptions& options, const cli::OutputNames& names) {
   std::vector<fs::path> places;
-  const auto add = [&](const fs::path& picture) {
-    std::error_code error;
-    if (fs::is_symlink(fs::symlink_status(picture, error))) places.push_back(io::place_of(picture));
-  };
-  const cli::FrameRange range = options.frames.value_or(cli::FrameRange{});
-  for (int frame = range.first; frame <= range.last; ++frame) {
-    for (const fs::path& file : frame_files(options, names, frame, render::max_shadowed_lights)) add(file);
+  std::error_code error;
+  const fs::path folder = folder_of(options, names);
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code unknown;
+    if (entry->is_symlink(unknown) && is_name_of_picture(entry->path().filename().string(), options, names))
+      places.push_back(io::place_of(entry->path()));
   }
   return places;
 }
@@ -32,16 +47,10 @@ std::vector<fs::path> linked_places(const RenderOptions& options, const cli::Out
 // Whether a file written to `result` would overwrite the picture of a frame.
 bool is_picture(const fs::path& result, const RenderOptions& options, const cli::OutputNames& names,
                 const std::vector<fs::path>& linked) {
-  const fs::path place = io::place_of(result), name = place.filename();
+  const fs::path place = io::place_of(result);
   if (std::ranges::find(linked, place) != linked.end()) return true;
-  const cli::FrameRange range = options.frames.value_or(cli::FrameRange{});
-  const fs::path folder = names.picture(range.first).parent_path();
-  if (place.parent_path() != io::place_of(folder / "picture").parent_path()) return false;
-  for (int frame = range.first; frame <= range.last; ++frame) {
-    const std::vector<fs::path> files = frame_files(options, names, frame, render::max_shadowed_lights);
-    if (std::ranges::find(files, name, &fs::path::filename) != files.end()) return true;
-  }
-  return false;
+  return place.parent_path() == io::place_of(folder_of(options, names) / "picture").parent_path() &&
+         is_name_of_picture(place.filename().string(), options, names);
 }
 
 void check_alone(const char* option, const fs::path& result, const RenderOptions& options,
