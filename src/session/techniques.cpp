@@ -19,7 +19,7 @@ struct PresetValues {
   std::string name;
   ParamSet params;                   // with the preset chosen
   std::vector<std::string> changed;  // the parameters that it sets to other values than their defaults
-  std::vector<std::string> groups;   // of all that it sets but for the maps, and of its technique
+  std::vector<std::string> groups;   // of all that it sets but for maps and cascades, and of its technique
 };
 
 std::vector<PresetValues> presets_with_values() {
@@ -32,8 +32,9 @@ std::vector<PresetValues> presets_with_values() {
     added.groups.push_back(added.params.get_word("technique"));
     for (const std::string& assignment : preset.assignments) {
       const std::string name = assignment.substr(0, assignment.find('='));
-      // The parameters of maps concern all techniques.
-      if (!group_of(name).empty() && group_of(name) != "maps") added.groups.push_back(group_of(name));
+      // The parameters of maps and cascades concern all techniques.
+      const std::string group = group_of(name);
+      if (!group.empty() && group != "maps" && group != "cascades") added.groups.push_back(group);
       if (added.params.value(name) != defaults.value(name)) added.changed.push_back(name);
     }
   }
@@ -100,7 +101,12 @@ void choose_technique(ParamSet& params, const shadow::Registry& registry, const 
   const std::string last = selection_of(params).name;
   const auto preset = std::ranges::find(registry.presets(), last, &shadow::Preset::name);
   if (preset != registry.presets().end()) {
-    for (const std::string& assignment : preset->assignments) params.reset(assignment.substr(0, assignment.find('=')));
+    ParamSet chosen = params;
+    registry.select(chosen, last);
+    for (const std::string& assignment : preset->assignments) {
+      const std::string param = assignment.substr(0, assignment.find('='));
+      if (params.value(param) == chosen.value(param)) params.reset(param);
+    }
   }
   registry.select(params, name);
 }

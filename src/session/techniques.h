@@ -34,8 +34,8 @@ std::string group_of(const std::string& param);
 // What commands draw with where the user names no technique.
 constexpr const char* usual_technique = "slices_denoised";
 
-// Chooses a technique or preset. What selection_of() named before goes back to its defaults, so that the filters of
-// one preset do not stay with the next.
+// Chooses a technique or preset. What selection_of() named before goes back to its defaults, but for values that were
+// changed since, so that the filters of one preset do not stay with the next.
 void choose_technique(ParamSet& params, const shadow::Registry& registry, const std::string& name);
 
 // What makes each frame depend on those before it, as the parameter that causes it ("history.reuse"); empty: nothing

@@ -48,6 +48,22 @@ TEST(TechniqueLabel, MapsAreNoPartOfAPresetButForWhatItSets) {
   EXPECT_EQ(session::technique_label(params), "slices_history (modified)");
 }
 
+TEST(TechniqueLabel, CascadesAreNoPartOfAPresetButForWhatItSets) {
+  ParamSet params = selected("hybrid_denoised");
+  params.set("cascades.distance", 50.0f);
+  EXPECT_EQ(session::technique_label(params), "hybrid_denoised");
+  params.set("cascades.size", 512);
+  EXPECT_EQ(session::technique_label(params), "hybrid_denoised (modified)");
+}
+
+TEST(TechniqueLabel, ChoosingAnotherTechniqueKeepsWhatWasChangedSince) {
+  ParamSet params = selected("hybrid_denoised");
+  params.set("cascades.size", 4096);
+  session::choose_technique(params, session::all_techniques(), "pcss");
+  EXPECT_EQ(params.get_int("cascades.size"), 4096);
+  EXPECT_EQ(params.get_word("cascades.fit"), "stable");
+}
+
 TEST(TechniqueLabel, IsTheTechniqueWhereMostOfAPresetIsMissing) {
   ParamSet params = selected("pcss");
   params.set_text("filter.visibility", "bilateral_separable");
