@@ -79,7 +79,7 @@ class Registry {
   Contents contents_;
 };
 
-// The techniques of this library: none, hard, pcf, pcss, brute_force; and the presets of Deligiannis 2019.
+// The techniques of this library and their presets: see registry.cpp.
 const Registry& built_in_registry();
 
 }  // namespace penumbra::shadow

@@ -58,7 +58,7 @@ struct FrameKind {
 // including the caller's.
 //
 // Memory. No texture is created after the first frame of a size, unless cascades.fit=visible or penumbrae chooses
-// another number of cascades for what a frame shows (which cascades.count of 1 or 2 prevents), and no OpenGL object at
+// another number of cascades for what a frame shows (which cascades.count of 1 prevents), and no OpenGL object at
 // all after the first frame in which a caster moved (where a history is kept). Shadow maps, masks and histories are
 // kept for each view id until forget_view(); those of a light are released in the first frame of the view that does not
 // list it.

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
+
+#include "shadow/cascades.h"
 
 namespace penumbra::truth {
 
@@ -17,13 +20,10 @@ struct Sides {
   glm::dvec3 x, y;
 };
 
-// Two unit vectors perpendicular to a unit vector and to each other, the first one horizontal. Must match
-// shadow/cascades.cpp.
+// The axes of light space across the light.
 Sides sides_about(const glm::dvec3& axis) {
-  const glm::dvec3 z = -axis;
-  const glm::dvec3 horizontal = glm::cross(z, glm::dvec3(0, 1, 0));
-  const glm::dvec3 x = glm::length(horizontal) > 1e-6 ? glm::normalize(horizontal) : glm::dvec3(1, 0, 0);
-  return {x, glm::cross(x, z)};
+  const glm::dmat3 axes = glm::transpose(shadow::light_axes(axis));
+  return {axes[0], axes[1]};
 }
 
 SeenLight seen(const TracedSun& sun, const glm::dvec3& /*point*/) {

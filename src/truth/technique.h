@@ -36,7 +36,7 @@ class TruthTechnique {
   TruthTechnique(const TruthTechnique&) = delete;
   TruthTechnique& operator=(const TruthTechnique&) = delete;
 
-  // `base` with `truth` appended.
+  // `base` with `truth`, `hybrid` and the preset `hybrid_denoised` appended.
   shadow::Registry registry(const shadow::Registry& base = shadow::built_in_registry()) const;
 
   struct Pending {

@@ -81,8 +81,8 @@ void machine(const Panel& panel) {
   ImGui::TextWrapped("%s", device.renderer.c_str());
   if (device.software)
     ImGui::TextWrapped(
-        "A software rasteriser: the CPU draws, and times are those of the CPU. While something moves, the picture is "
-        "drawn at a fraction of its size.");
+        "A software rasteriser: the CPU draws, and times are those of the CPU. While the view moves, maps and taps are "
+        "reduced, and then the picture's size; while a parameter changes, its size.");
 }
 
 void costs(const Panel& panel) {
