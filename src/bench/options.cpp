@@ -49,7 +49,8 @@ void add_output(Options& options, const std::string& name) {
 void add_bench_options(CLI::App& app, Options& o) {
   add_value(
       app, "--technique", "NAME,...",
-      "Techniques, presets or preset files (.toml) to compare, in turn frame by frame; see penumbra list techniques",
+      "Techniques, presets or preset files (.toml) to compare, in turn frame by frame; see penumbra list techniques "
+      "(pcss)",
       [&o](const auto& text) { o.techniques = names_of("--technique", text); });
   add_value(app, "--frames", "N", "Frames to measure, for each technique and point (400; in software 20, of a sweep 4)",
             [&o](const auto& text) { o.frame_count = cli::parse_count("--frames", text, 1, 100000); });

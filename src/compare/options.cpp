@@ -40,8 +40,8 @@ void add_compare_options(CLI::App& app, CompareOptions& o, const CommandHelp& he
             [&o](const auto& text) { o.output = cli::output_folder("-o", text); });
   app.get_option("--output")->required();
   add_value(app, "--technique", "NAME,...",
-            "Techniques and presets to compare; NAME:PARAM=VALUE,PARAM=VALUE changes values of one; see penumbra list "
-            "techniques",
+            "Techniques and presets to compare, at least one; NAME:PARAM=VALUE,PARAM=VALUE changes values of one; see "
+            "penumbra list techniques",
             [&o](const auto& text) { add_contenders(o.contenders, text); });
   add_value(app, "--reference", "truth|brute_force", "Reference that they are measured against (truth)",
             [&o](const auto& text) {
