@@ -193,12 +193,23 @@ void check_together(const SceneOptions& o) {
                width, height, largest_side, largest_area);
 }
 
-void check_together(const DeviceOptions& o) {
+namespace {
+
+void check_shader_folder(const std::filesystem::path& folder) {
   std::error_code unread;
-  if (!o.glsl.empty() && !std::filesystem::is_directory(o.glsl, unread))
-    fail("--glsl: {} is {}", io::quoted(o.glsl),
-         std::filesystem::exists(o.glsl, unread) ? "a file, not a folder of shaders"
-                                                 : "not a folder: nothing has that name");
+  const std::filesystem::file_status status = std::filesystem::status(folder, unread);
+  if (status.type() == std::filesystem::file_type::not_found)
+    fail("--glsl: {} is not a folder: nothing has that name", io::quoted(folder));
+  if (std::filesystem::exists(status) && !std::filesystem::is_directory(status))
+    fail("--glsl: {} is a file, not a folder of shaders", io::quoted(folder));
+  const std::filesystem::directory_iterator listed(folder, unread);
+  if (unread) fail("--glsl: {} can't be listed: {}", io::quoted(folder), unread.message());
+}
+
+}  // namespace
+
+void check_together(const DeviceOptions& o) {
+  if (!o.glsl.empty()) check_shader_folder(o.glsl);
   if (o.egl_device && o.backend != "auto" && o.backend != "egl")
     fail_usage("--egl-device is not for --backend {}", o.backend);
 }

@@ -26,6 +26,11 @@ std::size_t size_of(const std::filesystem::path& path, std::size_t limit) {
   return size;
 }
 
+// Throws Error if the last read failed, rather than met the end of the file.
+void check_read(const std::ifstream& stream) {
+  if (stream.bad()) fail("can't be read: {}", std::strerror(errno));
+}
+
 }  // namespace
 
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t limit) {
@@ -39,7 +44,11 @@ std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t 
     fail("not enough memory for its {} bytes", size);
   }
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  check_read(stream);
   if (stream.gcount() != static_cast<std::streamsize>(bytes.size())) fail("can't be read to its end");
+  const bool has_more = stream.peek() != std::ifstream::traits_type::eof();  // as files of /proc have, of size 0
+  check_read(stream);
+  if (has_more) fail("longer than the {} bytes of its size", size);
   return bytes;
 }
 
@@ -54,6 +63,7 @@ std::size_t FileParts::read(std::size_t offset, std::span<std::byte> to) {
   stream_.clear();
   stream_.seekg(static_cast<std::streamoff>(offset));
   stream_.read(reinterpret_cast<char*>(to.data()), static_cast<std::streamsize>(to.size()));
+  check_read(stream_);
   return static_cast<std::size_t>(stream_.gcount());
 }
 

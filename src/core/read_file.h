@@ -18,7 +18,7 @@ class FileParts {
   // Throws Error like read_file().
   FileParts(const std::filesystem::path& path, std::size_t limit);
 
-  // Reads from `offset` on until `to` is full or the file ends. Returns the number of bytes.
+  // Reads from `offset` on until `to` is full or the file ends. Returns the number of bytes. Throws Error for a fault.
   std::size_t read(std::size_t offset, std::span<std::byte> to);
 
  private:

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "../core/error.h"
+#include "../core/read_file.h"
 #include "built_in_files.h"
 
 namespace penumbra::gl {
@@ -33,12 +33,18 @@ std::filesystem::path overlaid(const std::string& overlay, std::string_view name
   return std::filesystem::path(overlay) / name;
 }
 
+// nullopt if nothing has that name. A link that leads nowhere has it, and can't be read.
 std::optional<std::string> read_disk(const std::filesystem::path& path) {
+  constexpr std::size_t largest = 1 << 20;  // bytes
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(stream), {});
+  if (std::filesystem::symlink_status(path, ignored).type() == std::filesystem::file_type::not_found)
+    return std::nullopt;
+  try {
+    const std::vector<std::byte> bytes = read_file(path, largest);
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  } catch (const Error& error) {
+    fail("cannot read the shader '{}': {}", path.string(), error.what());
+  }
 }
 
 // How the loader treats a line of a shader file.

@@ -19,7 +19,8 @@ class ShaderFiles {
   explicit ShaderFiles(std::string overlay_directory);
 
   // The text of a file: generated, else the overlay's, else built in. nullopt when none has it, or when the name is
-  // absolute or leaves the folder.
+  // absolute or leaves the folder. Throws Error for a name of the overlay that can't be read: no regular file, one of
+  // more than 1 MiB, or a link that leads nowhere.
   std::optional<std::string> read(std::string_view name) const;
   // Adds or replaces an in-memory file (generated declarations: "generated/registry0/params.glsl").
   void put(std::string name, std::string text);

@@ -83,6 +83,20 @@ TEST_F(ShaderReloadTest, ABrokenFileIsToldWithItsLineAndTheLastGoodProgramStays)
   EXPECT_FALSE(library.take_outdated());
 }
 
+TEST_F(ShaderReloadTest, AFileThatCantBeReadIsToldAndTheLastGoodProgramStays) {
+  fs::remove(folder / "size.glsl");
+  fs::create_symlink("nowhere", folder / "size.glsl");
+  const session::ShaderReload broken = reload();
+  EXPECT_EQ(broken.failed, 1u);
+  EXPECT_EQ(broken.errors, std::vector<std::string>{"cannot read the shader '" + (folder / "size.glsl").string() +
+                                                    "': file not found"});
+  EXPECT_EQ(size_of(a), 4);
+
+  fs::remove(folder / "size.glsl");
+  EXPECT_EQ(reload("size.glsl", "#define SIZE 16\n").rebuilt, 1u);
+  EXPECT_EQ(size_of(a), 16);
+}
+
 TEST_F(ShaderReloadTest, ProgramsThatFailForTheSameLinesAreToldOnce) {
   gl::ProgramDesc other = a;
   other.name = "other";

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -141,7 +142,37 @@ TEST(ShaderSource, AnOverlaysFileWinsOverTheBuiltInOne) {
   EXPECT_EQ(overlay.read(built_in), ShaderFiles().read(built_in));
   folder.write(built_in, "OVERLAID\n");
   EXPECT_EQ(overlay.read(built_in), "OVERLAID\n");
-  EXPECT_EQ(overlay.read("lib"), std::nullopt) << "a folder is not a file";
+}
+
+TEST(ShaderSource, AnOverlaysFileThatCantBeReadIsNotTheBuiltInOne) {
+  const std::string name = "lib/tone_map.glsl";
+  ASSERT_TRUE(ShaderFiles().read(name));
+  const TemporaryFolder folder;
+  const std::filesystem::path path = std::filesystem::path(folder.path()) / name;
+  const auto expect_refused = [&](const std::string& cause) {
+    const std::string told = message(ShaderFiles(folder.path()), name);
+    EXPECT_EQ(told, fmt::format("cannot read the shader '{}': {}", path.string(), cause));
+    std::filesystem::remove_all(path);
+  };
+  std::filesystem::create_directory(path);
+  expect_refused("not a regular file");
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  expect_refused("not a regular file");
+  std::filesystem::create_symlink("nowhere", path);
+  expect_refused("file not found");
+  std::filesystem::create_symlink(path, path);
+  expect_refused("can't be read: Too many levels of symbolic links");
+  std::filesystem::create_symlink("/proc/self/mem", path);
+  expect_refused("can't be read: Input/output error");
+  std::filesystem::create_symlink("/proc/self/status", path);
+  expect_refused("longer than the 0 bytes of its size");
+  folder.write(name, "");
+  std::filesystem::resize_file(path, (1 << 20) + 1);
+  expect_refused("1048577 bytes, over the limit of 1048576");
+  EXPECT_EQ(ShaderFiles(folder.path()).read(name), ShaderFiles().read(name)) << "the built-in one is back";
+  std::filesystem::remove_all(path.parent_path());
+  folder.write("lib", "a file in place of the folder");
+  EXPECT_EQ(ShaderFiles(folder.path()).read(name), ShaderFiles().read(name));
 }
 
 TEST(ShaderSource, BuiltInFilesAreTheFilesOfTheTree) {
