@@ -18,6 +18,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "io/descriptor.h"
 
 namespace penumbra::io {
 
@@ -41,21 +42,6 @@ std::optional<int> own_descriptor(const fs::path& path) {
   if (fault != std::errc() || end != number.data() + number.size()) return {};
   return descriptor;
 }
-
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
 
 // An open file of this process is duplicated, since opening its path again would begin at the file's start.
 int opened(const fs::path& path) {

@@ -1,6 +1,8 @@
 """Parameters: every one is listed, takes its values from --set and from presets, and refuses what it can't be."""
 
 import json
+import os
+import subprocess
 
 from pictures import SMALL, SMALL_MAPS, scene
 from support import TestCase, main, run
@@ -39,9 +41,10 @@ class Params(TestCase):
     def setUpClass(cls):
         cls.rows = json.loads(run("list", "params", "--json").stdout)["rows"]
 
-    def stats_after(self, *arguments):
+    def stats_after(self, *arguments, **options):
         stats = self.folder / "stats.json"
-        self.succeed("render", POSTS, "-o", self.folder / "x.png", *SMALL, "--quiet", "--stats", stats, *arguments)
+        self.succeed("render", POSTS, "-o", self.folder / "x.png", *SMALL, "--quiet", "--stats", stats, *arguments,
+                     **options)
         return json.loads(stats.read_text())["params"]
 
     def preset(self, text):
@@ -95,6 +98,24 @@ class Params(TestCase):
                     self.assertIn(word, error)
         for path in (self.folder / "none.toml", self.folder):
             self.assertIn("preset", self.refuse("render", POSTS, "-o", self.folder / "x.png", "--preset", path))
+
+    def test_presets_that_can_not_be_read_are_told(self):
+        pipe = self.folder / "pipe.toml"
+        os.mkfifo(pipe)
+        for path, cause in ((self.preset(""), "it is empty"), ("/proc/self/mem", "Input/output error"),
+                            (pipe, "no program writes to this pipe")):
+            error = self.refuse("render", POSTS, "-o", self.folder / "x.png", "--preset", path, timeout=60)
+            self.assertTrue(error.endswith(f"cannot read preset '{path}': {cause}"), error)
+
+    def test_presets_come_from_pipes_whose_writer_takes_its_time(self):
+        command = ("sh", "-c", "sleep 0.3; echo 'technique = \"hard\"'; sleep 0.3; echo 'sun.angle = 3'")
+        with subprocess.Popen(command, stdout=subprocess.PIPE) as writer:
+            number = writer.stdout.fileno()
+            values = self.stats_after("--preset", f"/dev/fd/{number}", pass_fds=(number,))
+        self.assertEqual((values["technique"], values["sun.angle"]), ("hard", 3))
+        with subprocess.Popen(command, stdout=subprocess.PIPE) as writer:
+            values = self.stats_after("--preset", "/dev/stdin", stdin=writer.stdout)
+        self.assertEqual((values["technique"], values["sun.angle"]), ("hard", 3))
 
     def test_a_former_name_is_refused_with_the_present_one(self):
         told = "parameter 'pcss.renewal_taps' is now called 'pcss.disocclusion_taps'"

@@ -241,7 +241,7 @@ class Watch(TestCase):
         output = ("-o", self.picture, *SMALL)
         self.assertIn("--frames", self.refuse("watch", POSTS, *output, "--frames", "0:3", code=2))
         preset = self.folder / "mine.toml"
-        preset.write_text("")
+        preset.write_text("sun.angle = 1\n")
         self.assertIn("--save-preset", self.refuse("watch", POSTS, *output, "--preset", preset, "--save-preset",
                                                    preset, code=2))
         self.refuse("watch", self.folder / "none.glb", *output)

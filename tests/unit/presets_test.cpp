@@ -1,11 +1,17 @@
 #include "io/presets.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <string>
+#include <string_view>
 
 #include "core/error.h"
 #include "core/names.h"
@@ -153,6 +159,55 @@ TEST_F(Presets, RefuseMissingFilesAndFolders) {
   ParamSet params = rows();
   EXPECT_THROW(penumbra::io::read_preset(path(), params, select), Error);
   EXPECT_THROW(penumbra::io::read_preset(path().parent_path(), params, select), Error);
+}
+
+std::string refusal(const std::filesystem::path& file) {
+  ParamSet params = rows();
+  try {
+    penumbra::io::read_preset(file, params, select);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST_F(Presets, RefuseEmptyFilesAndFaultsOfReading) {
+  std::ofstream(path()) << "";
+  EXPECT_EQ(refusal(path()), "cannot read preset '" + path().string() + "': it is empty");
+  EXPECT_EQ(refusal("/dev/null"), "cannot read preset '/dev/null': it is empty");
+  EXPECT_EQ(refusal("/dev/zero"), "cannot read preset '/dev/zero': it is larger than 1 MiB");
+  EXPECT_EQ(refusal("/proc/self/mem"), "cannot read preset '/proc/self/mem': Input/output error");
+  EXPECT_EQ(fault("# nothing is set\n"), "none");
+}
+
+TEST_F(Presets, RefusePipesThatNoProgramWritesTo) {
+  ASSERT_EQ(mkfifo(path().c_str(), 0600), 0);
+  EXPECT_EQ(refusal(path()), "cannot read preset '" + path().string() + "': no program writes to this pipe");
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  close(ends[1]);
+  EXPECT_TRUE(refusal("/dev/fd/" + std::to_string(ends[0])).ends_with("': it is empty"));
+  close(ends[0]);
+}
+
+TEST_F(Presets, WaitForTheProgramThatWritesToAPipe) {
+  using namespace std::chrono_literals;
+  ASSERT_EQ(mkfifo(path().c_str(), 0600), 0);
+  const int writer = open(path().c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_GE(writer, 0);
+  ParamSet params = rows();
+  auto reader = std::async(std::launch::async, [&] { penumbra::io::read_preset(path(), params, select); });
+  for (const std::string_view part : {"exposure = 2", ".5\nsun.angle = 3\n"}) {
+    EXPECT_EQ(reader.wait_for(20ms), std::future_status::timeout);
+    EXPECT_EQ(write(writer, part.data(), part.size()), static_cast<ssize_t>(part.size()));
+    int unread = 1;
+    while (ioctl(writer, FIONREAD, &unread) == 0 && unread > 0 && reader.wait_for(1ms) == std::future_status::timeout) {
+    }
+  }
+  close(writer);
+  reader.get();
+  EXPECT_EQ(params.get_float("exposure"), 2.5f);
+  EXPECT_EQ(params.get_float("sun.angle"), 3.0f);
 }
 
 }  // namespace
