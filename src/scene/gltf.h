@@ -76,8 +76,8 @@ struct ReadOptions {
   bool follow_links = false;
   // Called repeatedly on the thread that reads. An exception that it throws ends the reading.
   std::function<void(const ReadProgress&)> progress = {};
-  // Called once the glTF's JSON is read, with the files that it names besides itself, used or not, also those that then
-  // can't be read.
+  // Called once the glTF's JSON is read, with the files that it names besides itself and may read, used or not, also
+  // those that then can't be read.
   using NamesFiles = std::function<void(const std::vector<std::filesystem::path>&)>;
   NamesFiles names_files = {};
 };

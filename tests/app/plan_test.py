@@ -395,6 +395,29 @@ class Folder(Plans):
         files = [pathlib.Path(file["path"]).name for file in self.document()["scenes"][0]["files"]]
         self.assertEqual(sorted(files), ["a%20b.bin", "scene.gltf"])
 
+    def test_files_that_render_would_not_read_are_not_planned(self):
+        folder = self.folder / "scene"
+        (folder / "sub").mkdir(parents=True)
+        (self.folder / "outside.png").write_bytes(b"of somebody else")
+        (folder / "link.png").symlink_to(self.folder / "outside.png")
+        (folder / "unused.png").write_bytes(b"no picture")
+        (folder / "a.bin").write_bytes(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0))
+        path = folder / "scene.gltf"
+        images = ("/etc/passwd", "../outside.png", "%2e%2e/outside.png", "link.png", "sub", "unused.png")
+        path.write_text(json.dumps({
+            "asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "buffers": [{"byteLength": 36, "uri": "a.bin"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}], "images": [{"uri": uri} for uri in images],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]}))
+
+        def planned(*options):
+            self.make("render", path, *TINY, "--technique", "hard", *options)
+            return sorted(file["path"] for file in self.document()["scenes"][0]["files"])
+
+        inside = [str(folder / name) for name in ("a.bin", "scene.gltf", "unused.png")]
+        self.assertEqual(planned(), inside)
+        self.assertEqual(planned("--follow-links"), sorted([*inside, str(folder / "link.png")]))
+
     def test_names_that_are_not_text_are_refused(self):
         name = self.folder / os.fsdecode(b"\xff.glb")
         name.write_bytes(scene("steps").read_bytes())

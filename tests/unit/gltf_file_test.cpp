@@ -230,6 +230,28 @@ TEST(GltfFile, FollowsLinksOnlyIfAsked) {
         << "a name that leads out is no link: " << uri;
 }
 
+TEST(GltfFile, NamesOnlyFilesThatItMayRead) {
+  const ScratchFolder folder;
+  for (const char* name : {"../secret.bin", "data.bin", "a%20b.bin"}) folder.write(name, triangle_bytes);
+  std::filesystem::create_symlink("../secret.bin", folder.scene() / "link.bin");
+  std::filesystem::create_symlink("loop.bin", folder.scene() / "loop.bin");
+  std::string images;
+  for (const char* uri : {"/etc/passwd", "../secret.bin", "%2e%2e/secret.bin", "file:///etc/passwd", "data:,a",
+                          "loop.bin", "link.bin", "missing.bin", "a%20b.bin", "./x/../data.bin"})
+    images += fmt::format(R"({}{{"uri":"{}"}})", images.empty() ? "" : ",", uri);
+  const auto file = folder.write("scene.gltf", fmt::format(R"({{"asset":{{"version":"2.0"}},"images":[{}]}})", images));
+  const auto named = [&](bool follow_links) {
+    std::vector<std::string> names;
+    const auto keep = [&](const std::vector<std::filesystem::path>& files) {
+      for (const auto& path : files) names.push_back(path.filename().string());
+    };
+    scene::read_gltf(file, no_image, {.follow_links = follow_links, .names_files = keep});
+    return names;
+  };
+  EXPECT_EQ(named(false), (std::vector<std::string>{"missing.bin", "a%20b.bin", "data.bin"}));
+  EXPECT_EQ(named(true), (std::vector<std::string>{"link.bin", "missing.bin", "a%20b.bin", "data.bin"}));
+}
+
 TEST(GltfFile, ReadsLinksThatStayInside) {
   const ScratchFolder folder;
   folder.write("data.bin", triangle_bytes);

@@ -65,8 +65,8 @@ plan::PlannedScene planned_scene(const std::string& path, const plan::SceneFacts
   plan::PlannedScene scene{.path = path, .view = facts.view, .files = {}};
   for (const auto& [file, shader] : facts.files) {
     std::error_code unread;
+    if (!std::filesystem::is_regular_file(file, unread)) continue;  // a scene may name files that it does not use
     const std::uintmax_t bytes = std::filesystem::file_size(file, unread);
-    if (unread == std::errc::no_such_file_or_directory) continue;  // a scene may name files that it does not use
     if (unread) fail("cannot read {}: {}", io::quoted(file), unread.message());
     check_text(file.string());
     try {

@@ -155,7 +155,8 @@ void list_files(Document& document, const Json& json) {
     if (!json.contains(key)) continue;
     for (const Json& owner : json[key]) {
       const auto uri = owner.value("uri", std::string());
-      if (!uri.empty() && !is_data_uri(uri)) document.files.push_back(named_file(document.folder, uri));
+      if (auto file = named_file(document.folder, uri, document.options.follow_links))
+        document.files.push_back(std::move(*file));
     }
   }
 }

@@ -27,7 +27,7 @@ struct ImageSource {
 // because of a fault are placeholders.
 struct Document {
   std::filesystem::path folder;
-  std::vector<std::filesystem::path> files;  // all files that the glTF names, used or not
+  std::vector<std::filesystem::path> files;  // that the glTF names and may read, used or not
   tinygltf::Model model;                     // without buffers and images, which the members below hold
   std::vector<Bytes> views;                  // bytes of each bufferView, decompressed; empty if its buffer has no data
   std::vector<ImageSource> images;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <system_error>
+#include <utility>
 
 #include "core/error.h"
 #include "core/read_file.h"
@@ -47,30 +48,43 @@ bool lies_inside(const std::filesystem::path& file, const std::filesystem::path&
   return in_folder == folder.end() && in_file != file.end();
 }
 
-// The path of a relative URI below the folder: percent-decoded as the standard says, or unchanged, as many exporters
-// write it. Whether it leaves the folder is checked for files that don't exist too, so that a scene can't find out
-// which files do.
-std::filesystem::path resolve(const std::filesystem::path& folder, std::string_view uri, bool follow_links) {
+// The file that a relative URI names.
+struct Found {
+  std::string name;            // below the folder
+  std::filesystem::path file;  // with links resolved, unless they are followed; empty if there is none
+  std::error_code cause = {};  // why a name that may exist can't be read
+};
+
+// The name is the URI's percent-decoded as the standard says, or unchanged, as many exporters write it, if only that
+// exists. Whether it leaves the folder is checked for files that don't exist too, so that a scene can't find out which
+// files do.
+Found find_file(const std::filesystem::path& folder, std::string_view uri, bool follow_links) {
   std::error_code code;
   const auto base = std::filesystem::canonical(folder.empty() ? "." : folder, code);
   if (code) fail("the scene's folder can't be resolved: {}", code.message());
-  std::error_code cause;  // why a name that may exist can't be read
-  for (const std::string& name : {percent_decoded(uri), std::string(uri)}) {
+  Found missing{.name = percent_decoded(uri), .file = {}};
+  for (const std::string& name : {missing.name, std::string(uri)}) {
     code.clear();
     if (name.find('\0') != std::string::npos) fail("'{}' holds a zero byte", shortened(uri));
     if (std::filesystem::path(name).is_absolute()) fail("'{}' is an absolute path", shortened(uri));
     const auto named = (base / name).lexically_normal();
     if (!lies_inside(named, base)) fail("'{}' leads out of the scene's folder", shortened(uri));
     auto file = follow_links ? named : std::filesystem::weakly_canonical(base / name, code);
-    if (code) cause = code;
+    if (code) missing.cause = code;
     if (code) continue;
     if (!lies_inside(file, base))
       fail("'{}' leads out of the scene's folder by a symbolic link; --follow-links allows it", shortened(uri));
-    if (std::filesystem::exists(file, code)) return file;
-    if (code && code != std::errc::no_such_file_or_directory) cause = code;
+    if (std::filesystem::exists(file, code)) return {.name = name, .file = std::move(file)};
+    if (code && code != std::errc::no_such_file_or_directory) missing.cause = code;
   }
-  if (cause) fail("'{}' can't be read: {}", shortened(uri), cause.message());
-  fail("'{}' not found", shortened(uri));
+  return missing;
+}
+
+std::filesystem::path resolve(const std::filesystem::path& folder, std::string_view uri, bool follow_links) {
+  const Found found = find_file(folder, uri, follow_links);
+  if (found.cause) fail("'{}' can't be read: {}", shortened(uri), found.cause.message());
+  if (found.file.empty()) fail("'{}' not found", shortened(uri));
+  return found.file;
 }
 
 bool equals_ignoring_case(std::string_view text, std::string_view lower) {
@@ -125,10 +139,20 @@ std::string percent_decoded(std::string_view text) {
   return decoded;
 }
 
-std::filesystem::path named_file(const std::filesystem::path& folder, const std::string& uri) {
-  const std::filesystem::path decoded = folder / percent_decoded(uri), written = folder / uri;
-  std::error_code error;
-  return !std::filesystem::exists(decoded, error) && std::filesystem::exists(written, error) ? written : decoded;
+std::optional<std::filesystem::path> named_file(const std::filesystem::path& folder, std::string_view uri,
+                                                bool follow_links) {
+  if (uri.empty() || has_scheme(uri)) return std::nullopt;
+  std::error_code unread;
+  try {
+    const Found found = find_file(folder, uri, follow_links);
+    if (found.cause) return std::nullopt;
+    const std::filesystem::path name(found.name);
+    const auto named = folder / (follow_links ? name.lexically_normal() : name);
+    // "none/../a.bin" is no file for the system.
+    return found.file.empty() || std::filesystem::exists(named, unread) ? named : found.file;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
 }
 
 std::vector<std::byte> base64_decoded(std::string_view text) {

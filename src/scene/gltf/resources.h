@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,8 +15,10 @@ namespace penumbra::scene::gltf {
 std::string percent_decoded(std::string_view text);
 
 // The file below the folder that a relative URI names, also where there is none: percent-decoded as the standard says,
-// or by the name as it is written, as many exporters mean it, if only that exists.
-std::filesystem::path named_file(const std::filesystem::path& folder, const std::string& uri);
+// or by the name as it is written, as many exporters mean it, if only that exists. nullopt for what load_uri() refuses
+// to open whether it exists or not, and for a name that can't be looked up.
+std::optional<std::filesystem::path> named_file(const std::filesystem::path& folder, std::string_view uri,
+                                                bool follow_links);
 
 // Decodes base64. Throws Error for a character outside the alphabet or a wrong length.
 std::vector<std::byte> base64_decoded(std::string_view text);
