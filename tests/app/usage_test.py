@@ -1,6 +1,7 @@
 """Wrong usage: one line on stderr, exit code 2, near names, nothing drawn."""
 
 import json
+import os
 import re
 import struct
 import subprocess
@@ -240,7 +241,7 @@ class Usage(TestCase):
 
     def test_an_option_is_no_value_of_another_one(self):
         error = self.refuse("render", POSTS, "-o", "--size", "16x16", code=2, cwd=self.folder)
-        self.assertEqual(error, "error: --output lacks its value: '--size' is an option\n")
+        self.assertEqual(error, "error: --output lacks its value: '--size' is an option")
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_a_short_option_takes_no_equals_sign(self):
@@ -267,6 +268,35 @@ class Usage(TestCase):
             error = self.refuse("render", POSTS, "-o", self.folder / "x.png", "--glsl", glsl)
             self.assertIn("--glsl", error)
             self.assertIn(cause, error)
+        self.folder.chmod(0o777)
+        locked = self.folder / "locked"
+        locked.mkdir(0o311)
+        self.addCleanup(locked.chmod, 0o755)
+        error = self.refuse("render", POSTS, "-o", self.folder / "x.png", "--glsl", locked, **without_root())
+        self.assertTrue(error.endswith(f"--glsl: '{locked}' can't be listed: Permission denied"), error)
+
+    def test_a_shader_that_can_not_be_read_is_told(self):
+        shader = self.folder / "glsl" / "lib" / "tone_map.glsl"
+        shader.parent.mkdir(parents=True)
+
+        def refused(cause, **options):
+            error = self.refuse("render", POSTS, "-o", self.folder / "x.png", *SMALL, *SMALL_MAPS, "--technique",
+                                "hard", "--glsl", self.folder / "glsl", timeout=60, **options)
+            self.assertTrue(error.endswith(f"cannot read the shader '{shader}': {cause}"), error)
+            shader.unlink()
+
+        os.mkfifo(shader)
+        refused("not a regular file")
+        shader.symlink_to("nowhere")
+        refused("file not found")
+        shader.symlink_to("/proc/self/mem")
+        refused("can't be read: Input/output error")
+        shader.touch()
+        os.truncate(shader, 200 << 20)
+        refused("209715200 bytes, over the limit of 1048576")
+        self.folder.chmod(0o777)
+        shader.touch(0)
+        refused("can't be read: Permission denied", **without_root())
 
     def test_help_explains_every_name(self):
         for what in ("techniques", "params", "aovs"):
