@@ -1,6 +1,7 @@
 // Limits: their names, what they count, and small files that would expand to large scenes.
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "scene/limits.h"
 #include "support/gltf_files.h"
@@ -78,19 +79,63 @@ TEST(GltfLimits, CountWhatIsDrawn) {
             std::string::npos);
 }
 
+std::string draco_scene(const std::string& bytes) {
+  GltfBuilder gltf;
+  gltf.add(std::vector<uint8_t>(bytes.begin(), bytes.end()), "SCALAR", 1);
+  return gltf.text(
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"extensions":{"KHR_draco_mesh_compression":)"
+      R"({"bufferView":0,"attributes":{"POSITION":0}}}}]}],"nodes":[{"mesh":0}],)"
+      R"("extensionsUsed":["KHR_draco_mesh_compression"])");
+}
+
+// Of this process so far, bytes.
+std::size_t most_resident() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+void expect_over_data_limit(const std::string& message, const std::string& limit) {
+  EXPECT_NE(message.find("bytes of files expand to more, over the limit of " + limit), std::string::npos) << message;
+  EXPECT_NE(message.find("--limit data=SIZE changes it"), std::string::npos) << message;
+}
+
 // Draco allocates what its header declares before it reads the data.
 TEST(GltfLimits, CountWhatADracoHeaderDeclares) {
   std::string bytes("DRACO\x02\x02\x01\x01\0\0\0", 12);  // version 2.2, a mesh, edge breaker, no flags, traversal 0
   bytes += std::string("\x80\x80\x80\x20\x80\x80\x80\x20", 8);  // 2^26 points and faces
   bytes.resize(1 << 19);
-  GltfBuilder gltf;
-  gltf.add(std::vector<uint8_t>(bytes.begin(), bytes.end()), "SCALAR", 1);
-  const std::string text =
-      gltf.text(R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"extensions":{"KHR_draco_mesh_compression":)"
-                R"({"bufferView":0,"attributes":{"POSITION":0}}}}]}],"nodes":[{"mesh":0}],)"
-                R"("extensionsUsed":["KHR_draco_mesh_compression"])");
-  EXPECT_NE(refusal(text, {}).find("bytes of files expand to more, over the limit of"), std::string::npos)
-      << refusal(text, {});
+  expect_over_data_limit(refusal(draco_scene(bytes), {}), "1");
+}
+
+// 2^13 faces and points, and a corner table for each of 255 attributes with seams.
+TEST(GltfLimits, CountTheCornerTablesThatADracoHeaderDeclares) {
+  std::string bytes("DRACO\x02\x02\x01\x01\0\0\0", 12);
+  bytes += std::string("\x80\x40\x80\x40\xff", 5);
+  bytes.resize(1 << 12);
+  expect_over_data_limit(refusal(draco_scene(bytes), {.decoded_bytes = 8 << 20, .decoded_ratio = 0}), "8 MiB");
+}
+
+// Seven bits a byte, the lowest ones first.
+std::string varint(uint32_t value) {
+  std::string bytes;
+  for (; value >= 128; value >>= 7) bytes += static_cast<char>(value | 128);
+  return bytes + static_cast<char>(value);
+}
+
+// Draco zero-fills all attributes that the stream declares before it reads the values, which are missing here: 350 MiB
+// of one attribute with 255 components of eight bytes.
+TEST(GltfLimits, CountTheAttributesThatADracoStreamDeclares) {
+  const uint32_t faces = 60'000, points = 3 * faces;
+  std::string bytes("DRACO\x02\x02\x01\0\0\0", 11);  // version 2.2, a mesh, sequential, no flags
+  bytes += varint(faces) + varint(points) + '\x01';  // indices as they are, each a byte
+  bytes += std::string(std::size_t{3} * faces, '\0');
+  bytes += std::string("\x01\x01\0\x0a\xff\0\0\0", 8);  // a decoder of one attribute, its type and encoding
+  bytes.resize(bytes.size() + 64);
+  const std::string text = draco_scene(bytes);
+  const std::size_t before = most_resident();
+  expect_over_data_limit(refusal(text, {.decoded_bytes = 8 << 20, .decoded_ratio = 0}), "8 MiB");
+  EXPECT_LT(most_resident() - before, std::size_t{64} << 20);
 }
 
 TEST(GltfLimits, ProgressTellsOfEveryPartAtMostAHundredTimes) {

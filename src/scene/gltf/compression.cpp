@@ -1,12 +1,14 @@
 #include "scene/gltf/compression.h"
 
-#include <draco/compression/decode.h>
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
+#include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/core/varint_decoding.h>
 #include <draco/metadata/metadata_decoder.h>
 #define MESHOPTIMIZER_NO_WRAPPERS
 #include <meshoptimizer.h>
 
 #include <cstring>
+#include <exception>
 
 #include "core/error.h"
 #include "gl/shared_library.h"
@@ -53,14 +55,15 @@ void check_meshopt_sizes(const MeshoptStream& s) {
   if (!fits) fail("EXT_meshopt_compression with byteStride {} for {}", s.stride, s.filter);
 }
 
-constexpr uint8_t sequential = 0;     // Draco's encoder methods
 constexpr std::size_t densest = 256;  // faces per byte: far more than real meshes reach
 // Bytes that the decoder takes for a face, of its indices and of the corner table, and for a point, besides attributes.
 constexpr std::size_t draco_face = 36, draco_point = 12;
+// The same of each corner table of attributes with seams. A stream declares up to 255 of them.
+constexpr std::size_t draco_seam_face = 12, draco_seam_point = 16;
 
 // Draco allocates what its header declares before it notices that the data are missing, so the header is checked here
-// first.
-void check_draco_header(const char* data, std::size_t size, Budget budget) {
+// first. Returns the encoder method.
+uint8_t check_draco_header(const char* data, std::size_t size, Budget& budget) {
   draco::DecoderBuffer buffer;
   buffer.Init(data, size);
   draco::DracoHeader header{};
@@ -75,16 +78,78 @@ void check_draco_header(const char* data, std::size_t size, Budget budget) {
   if ((header.flags & METADATA_FLAG_MASK) != 0 && !draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))
     fail("Draco metadata is damaged");
   uint32_t faces = 0, points = 0;
-  uint8_t traversal = 0;
-  const bool ok =
-      header.encoder_method == sequential
-          ? draco::DecodeVarint(&faces, &buffer) && draco::DecodeVarint(&points, &buffer)
-          : buffer.Decode(&traversal) && draco::DecodeVarint(&points, &buffer) && draco::DecodeVarint(&faces, &buffer);
+  uint8_t traversal = 0, seam_tables = 0;
+  const bool ok = header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING
+                      ? draco::DecodeVarint(&faces, &buffer) && draco::DecodeVarint(&points, &buffer)
+                      : buffer.Decode(&traversal) && draco::DecodeVarint(&points, &buffer) &&
+                            draco::DecodeVarint(&faces, &buffer) && buffer.Decode(&seam_tables);
   if (!ok) fail("Draco header is damaged");
   if (faces > size * densest || points > size * densest)
     fail("Draco data of {} bytes declares {} faces and {} vertices", size, faces, points);
-  budget.spend(faces, draco_face);
-  budget.spend(points, draco_point);
+  budget.spend(faces, draco_face + seam_tables * draco_seam_face);
+  budget.spend(points, draco_point + seam_tables * draco_seam_point);
+  return header.encoder_method;
+}
+
+// For each point an attribute takes its value, a whole number for each component while it is decoded, and an index.
+void spend_attributes(const draco::PointCloud& cloud, Budget& budget) {
+  for (int32_t i = 0; i < cloud.num_attributes(); ++i) {
+    const draco::PointAttribute& attribute = *cloud.attribute(i);
+    const std::size_t components = attribute.num_components();
+    budget.spend(cloud.num_points(),
+                 static_cast<std::size_t>(attribute.byte_stride()) + components * sizeof(int32_t) + sizeof(uint32_t));
+  }
+}
+
+// Draco zero-fills every attribute that the stream declares before it reads the values, so they are counted first. An
+// error must not pass through Draco's functions: it is kept until they have returned.
+template <class Decoder>
+class CountingDecoder final : public Decoder {
+ public:
+  explicit CountingDecoder(Budget& budget) : budget_(budget) {}
+
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ protected:
+  bool DecodeAllAttributes() override {
+    try {
+      spend_attributes(*this->point_cloud(), budget_);
+    } catch (const Error&) {
+      error_ = std::current_exception();
+      return false;
+    }
+    return Decoder::DecodeAllAttributes();
+  }
+
+ private:
+  Budget& budget_;
+  std::exception_ptr error_;
+};
+
+template <class Decoder>
+void decode_draco_mesh(draco::DecoderBuffer& buffer, draco::Mesh& mesh, Budget& budget) {
+  const draco::DecoderOptions options;
+  CountingDecoder<Decoder> decoder(budget);
+  const draco::Status status = decoder.Decode(options, &buffer, &mesh);
+  decoder.rethrow();
+  if (!status.ok()) fail("Draco data is damaged: {}", status.error_msg_string());
+}
+
+void decode_draco_mesh(const Bytes& bytes, draco::Mesh& mesh, Budget& budget) {
+  const char* data = reinterpret_cast<const char*>(bytes.data());
+  const Budget before = budget;
+  const uint8_t method = check_draco_header(data, bytes.size(), budget);
+  draco::DecoderBuffer buffer;
+  buffer.Init(data, bytes.size());
+  if (method == draco::MESH_SEQUENTIAL_ENCODING)
+    decode_draco_mesh<draco::MeshSequentialDecoder>(buffer, mesh, budget);
+  else if (method == draco::MESH_EDGEBREAKER_ENCODING)
+    decode_draco_mesh<draco::MeshEdgebreakerDecoder>(buffer, mesh, budget);
+  else
+    fail("Draco data has the unknown encoder method {}", method);
+  budget = before;  // the caller counts what it keeps; what a damaged stream took stays counted
 }
 
 template <class T>
@@ -162,14 +227,8 @@ std::vector<std::byte> decode_meshopt(const MeshoptStream& s) {
 DracoMesh decode_draco(Document& document, const tinygltf::Primitive& primitive, const tinygltf::Value& extension) {
   const Bytes bytes = document.views[static_cast<std::size_t>(index_or(extension, "bufferView", 0))];
   if (bytes.empty()) fail("KHR_draco_mesh_compression without data");
-  const char* data = reinterpret_cast<const char*>(bytes.data());
-  check_draco_header(data, bytes.size(), document.budget);
-  draco::DecoderBuffer buffer;
-  buffer.Init(data, bytes.size());
-  draco::Decoder decoder;
-  const auto result = decoder.DecodeMeshFromBuffer(&buffer);
-  if (!result.ok()) fail("Draco data is damaged: {}", result.status().error_msg_string());
-  const draco::Mesh& mesh = *result.value();
+  draco::Mesh mesh;
+  decode_draco_mesh(bytes, mesh, document.budget);
 
   DracoMesh out;
   document.budget.spend(mesh.num_faces(), 3 * sizeof(uint32_t));
