@@ -6,7 +6,7 @@
 namespace penumbra::scene {
 
 // Makes a message one printable line. Messages quote the file, which may contain anything: control characters and bytes
-// outside ASCII become '?', and long text is cut.
+// that are not UTF-8 become '?', and long text is cut.
 std::string one_line(std::string_view text);
 
 }  // namespace penumbra::scene

@@ -50,6 +50,11 @@ class SceneReading(TestCase):
         self.assertIn("images[7]", self.refuse("info", path, "--limit", "images=128MiB"))  # damaged: it was decoded
         self.assertIn("2048 x 2048 pixels", self.refuse("info", path, "--limit", "image-pixels=1000000"))
 
+    def test_names_of_all_languages_are_quoted(self):
+        path = self.write_scene(images=[{"uri": "größe.png"}], textures=[{"source": 0}],
+                                materials=[{"emissiveTexture": {"index": 0}}])
+        self.assertIn("'größe.png' not found", self.refuse("info", path))
+
     def test_limits_have_names_and_numbers(self):
         path = self.write_scene()
         self.succeed("info", path, "--limit", "vertices=6", "--limit", "data=1MiB")  # 3, and 3 split for flat normals

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "scene/one_line.h"
 #include "support/gltf_files.h"
 
 namespace penumbra::test {
@@ -95,6 +96,24 @@ TEST(GltfFile, QuotesNothingUnprintable) {
   const ScratchFolder folder;
   const auto file = folder.write("evil.gltf", R"({"asset":{"version":"2.0"},"extensionsRequired":["a\n\u001b[31mb"]})");
   for (const char c : refusal(file)) EXPECT_TRUE(c >= ' ' && c <= '~');
+}
+
+TEST(GltfFile, QuotesNamesOfAllLanguages) {
+  const ScratchFolder folder;
+  expect_refused(folder.write("scene.gltf", triangle_with_buffer("größe.bin")), "'größe.bin' not found");
+  for (const char* name : {"größe", "\u2764", "\U0001F600", "\u00a0"}) EXPECT_EQ(scene::one_line(name), name);
+}
+
+TEST(GltfFile, ReplacesControlCharactersAndWhatIsNoUtf8) {
+  EXPECT_EQ(scene::one_line("a\nb\tc\x1b[31m\x7f \n"), "a b?c?[31m?");
+  EXPECT_EQ(scene::one_line("\u0080\u009b"), "??");
+  EXPECT_EQ(scene::one_line("\xff\xc3x\xed\xa0\x80\xe2\x9d"), "??x?????");
+}
+
+TEST(GltfFile, CutsMessagesBetweenCharacters) {
+  EXPECT_EQ(scene::one_line(std::string(500, 'a')), std::string(400, 'a'));
+  EXPECT_EQ(scene::one_line(std::string(399, 'a') + "öb"), std::string(399, 'a'));
+  EXPECT_EQ(scene::one_line(std::string(398, 'a') + "öb"), std::string(398, 'a') + "ö");
 }
 
 TEST(GltfFile, RefusesUnknownRequiredExtensionsByName) {
