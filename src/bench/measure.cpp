@@ -55,8 +55,10 @@ class Bench {
   Bench(const Options& options, const scene::ImageDecoder& decode, const shadow::Registry& registry)
       : options_(options), decode_(decode), registry_(registry), device_(gl::device_info()) {
     results_.entries = entries_of(options, registry);
-    if (options.sweep == "casters" && !options.scene.empty())
+    if (options.sweep == "casters" && !options.scene.empty()) {
       model_ = cli::read_scene(options.scene, options.reading, decode);
+      session::check_extent(*model_, options.time);
+    }
     results_.sweep = make_sweep(options.sweep, limits());
     results_.frames = frame_counts(options, device_.software);
     for (const Point& point : results_.sweep.points) {

@@ -180,13 +180,16 @@ void set_exposure(ParamSet& params, const std::string& text) {
   }
 }
 
+// Also where the distance is too short for a direction in floats.
+bool is_same_point(const glm::vec3& a, const glm::vec3& b) { return glm::dot(b - a, b - a) == 0; }
+
 }  // namespace
 
 void check_together(const SceneOptions& o) {
   if (o.sun && o.no_sun) fail_usage("--sun and --no-sun exclude each other");
   if (o.eye.has_value() != o.target.has_value()) fail_usage("--eye and --target go together");
   if (o.eye && o.camera) fail_usage("--eye and --camera exclude each other");
-  if (o.eye && *o.eye == *o.target) fail_usage("--eye and --target are the same point");
+  if (o.eye && is_same_point(*o.eye, *o.target)) fail_usage("--eye and --target are the same point");
   const long long width = 1LL * o.size.width * o.supersample, height = 1LL * o.size.height * o.supersample;
   if (width > largest_side || height > largest_side || width * height > largest_area)
     fail_usage("a picture of {}x{} pixels (--size times --supersample) is over the limit of {} a side and {} in all",

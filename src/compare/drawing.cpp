@@ -48,6 +48,7 @@ using Timed = session::RenderDevice::Timed;
 session::PreparedScene load_scene(const CompareOptions& options, const scene::ImageDecoder& decode) {
   scene::Scene scene = cli::read_scene(options.scene, options.reading, decode);
   check_inputs(options, scene.files);
+  session::check_extent(scene, options.time);
   try {
     session::PreparedScene prepared = session::prepare_scene(std::move(scene), options);
     check_memory(options, render::shadowed_lights(prepared.setup).size());

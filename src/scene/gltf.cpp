@@ -1,7 +1,5 @@
 #include "scene/gltf.h"
 
-#include <algorithm>
-#include <cmath>
 #include <exception>
 #include <new>
 #include <string>
@@ -12,6 +10,7 @@
 #include "scene/limits.h"
 #include "scene/one_line.h"
 #include "scene/pose.h"
+#include "scene/reach.h"
 #include "scene/sky.h"
 
 namespace penumbra::scene {
@@ -29,16 +28,8 @@ void check_drawn(const Scene& scene, const ReadLimits& limits) {
 
 // Float arithmetic in the passes would overflow on coordinates further out.
 void check_extent(const Scene& scene, double limit) {
-  const Pose pose = rest_pose(scene);
-  const Bounds bounds = bounds_of(scene, pose);
-  double furthest = 0;
-  for (const glm::vec3& corner : {bounds.min, bounds.max})
-    for (glm::length_t c = 0; c < 3; ++c)
-      furthest = std::isfinite(corner[c]) ? std::max<double>(furthest, std::abs(corner[c])) : HUGE_VAL;
-  for (const glm::mat4& world : pose.world)
-    for (glm::length_t c = 0; c < 4; ++c)
-      for (glm::length_t r = 0; r < 3; ++r) furthest = std::max<double>(furthest, std::abs(world[c][r]));
-  if (!(furthest <= limit)) fail("reaches {:.3g} m from the origin, over the limit of {:.3g} m", furthest, limit);
+  const double reach = reach_of(scene, rest_pose(scene));
+  if (!(reach <= limit)) fail("{}", over_extent(reach, limit));
 }
 
 void mark_skies(Scene& scene) {

@@ -61,7 +61,7 @@ struct ReadLimits {
   std::size_t decoded_bytes = std::size_t{1} << 30;
   std::size_t decoded_ratio = 16;
   std::size_t decoded_most = SIZE_MAX;  // bytes
-  double extent = 1e9;  // metres from the origin in the rest pose: beyond it, float arithmetic in the passes overflows
+  double extent = 1e9;                  // metres from the origin: beyond it, float arithmetic in the passes overflows
 };
 
 // How far the reading of a scene has come.

@@ -70,7 +70,31 @@ void choose(PreparedScene& prepared, const cli::SceneOptions& options, render::G
   }
 }
 
+// Of the scene in a pose at this time.
+void check_reach(const scene::Scene& scene, double seconds, double reach) {
+  const double limit = scene::ReadLimits().extent;
+  if (reach <= limit) return;
+  fail("{}: at {:g} s it {}", scene.files.empty() ? "the scene" : scene.files.back().string(), seconds,
+       scene::over_extent(reach, limit));
+}
+
+// Without the ground, which is many times as wide as the scene.
+void check_extent(const PreparedScene& prepared, double seconds) {
+  if (prepared.scene.animations.empty()) return;
+  scene::Pose pose = scene::pose_at(prepared.scene, seconds);
+  if (prepared.reach.at(pose) <= scene::ReadLimits().extent) return;
+  for (std::size_t i = 0; i < pose.drawn.size(); ++i) {
+    if (prepared.scene.nodes[i].ground) pose.drawn[i] = false;
+  }
+  check_reach(prepared.scene, seconds, scene::reach_of(prepared.scene, pose));
+}
+
 }  // namespace
+
+void check_extent(const scene::Scene& scene, double seconds) {
+  if (scene.animations.empty()) return;
+  check_reach(scene, seconds, scene::reach_of(scene, scene::pose_at(scene, seconds)));
+}
 
 void update_view(PreparedScene& prepared, const cli::SceneOptions& options) {
   choose(prepared, options, prepared.setup.ground ? render::GroundChoice::on : render::GroundChoice::off);
@@ -80,12 +104,15 @@ PreparedScene prepare_scene(scene::Scene scene, const cli::SceneOptions& options
   PreparedScene prepared{.scene = std::move(scene), .bounds = {}, .setup = {}};
   prepared.bounds = scene::bounds_of(prepared.scene, scene::pose_at(prepared.scene, options.time));
   choose(prepared, options, options.ground);
+  if (!prepared.scene.animations.empty()) prepared.reach = scene::ReachBound(prepared.scene);
   if (prepared.setup.ground) render::add_ground(prepared.scene, prepared.bounds);
   return prepared;
 }
 
 PreparedScene load_scene(const cli::SceneOptions& options, const scene::ImageDecoder& decode) {
-  return prepare_scene(cli::read_scene(options.scene, options.reading, decode), options);
+  scene::Scene scene = cli::read_scene(options.scene, options.reading, decode);
+  check_extent(scene, options.time);
+  return prepare_scene(std::move(scene), options);
 }
 
 cli::LightKinds kinds_of_light(const PreparedScene& prepared) {
@@ -103,6 +130,8 @@ render::Setup setup_at(const PreparedScene& prepared, double seconds) {
 }
 
 render::FrameInputs frame_inputs(const PreparedScene& prepared, const cli::Size& pixels, const FrameTime& when) {
+  check_extent(prepared, when.time);
+  if (when.last_time != when.time) check_extent(prepared, when.last_time);
   const render::Setup setup = setup_at(prepared, when.time);
   return {.width = pixels.width,
           .height = pixels.height,

@@ -9,6 +9,7 @@
 #include "render/renderer.h"
 #include "render/setup.h"
 #include "scene/gltf.h"
+#include "scene/reach.h"
 #include "scene/scene.h"
 
 namespace penumbra::session {
@@ -22,7 +23,12 @@ struct PreparedScene {
   std::shared_ptr<std::set<int>> told_hidden = std::make_shared<std::set<int>>();
   // What was logged while camera and lights were chosen: it is logged once, however often they are chosen again.
   std::set<std::string> told = {};
+  scene::ReachBound reach = {};  // of an animated scene, without the ground
 };
+
+// The reader checks how far the scene reaches at rest, and this at a time of its animations. Throws Error that names
+// the file.
+void check_extent(const scene::Scene& scene, double seconds);
 
 // Adds the ground and chooses camera and sun. Choices that depend on the scene's bounds use the bounds at --time, so
 // that they are the same in all frames of a sequence, whichever is drawn first. Throws Error.
@@ -46,7 +52,7 @@ struct FrameTime {
   bool cut = false;                // there is no frame before it, so it starts without history
 };
 // The inputs of a frame of `pixels`: camera and sun at its time, motion since the last one, and a cut where an
-// animation jumps in between.
+// animation jumps in between. Throws Error that names the file if the scene reaches too far at one of the times.
 render::FrameInputs frame_inputs(const PreparedScene& prepared, const cli::Size& pixels, const FrameTime& when);
 
 // The time of a frame in seconds. Frame 0 is at --time; a single picture is frame 0.

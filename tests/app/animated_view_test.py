@@ -44,11 +44,11 @@ class Buffer:
         return len(self.accessors) - 1
 
 
-def animated_scene():
+def animated_scene(places=CAMERA):
     buffer = Buffer()
     shapes = [buffer.add(box(*ends), "VEC3") for ends in (((-9, -1, -9), (9, 0, 9)), ((-1, 0.5, -1), (1, 2, 1)))]
     times = buffer.add([0.0, 1.0], "SCALAR")
-    tracks = [("translation", 1, buffer.add(CAMERA, "VEC3")),
+    tracks = [("translation", 1, buffer.add(places, "VEC3")),
               ("rotation", 1, buffer.add([turn(1, angle) for angle in YAW], "VEC4")),
               ("rotation", 2, buffer.add([turn(0, angle) for angle in SUN_PITCH], "VEC4"))]
     return {
@@ -166,6 +166,35 @@ class AnimatedView(TestCase):
                 seen, longest = seen + 1, max(longest, math.hypot(*wanted))
         self.assertGreater(seen, WIDTH * HEIGHT / 4)
         self.assertGreater(longest, 3)
+
+    def refused(self, *arguments):
+        return self.refuse("render", self.scene, "-o", self.folder / "x.png", "--size", f"{WIDTH}x{HEIGHT}", "--quiet",
+                           *SMALL_MAPS, *arguments)
+
+    def test_a_scene_that_reaches_too_far_at_its_time_is_refused(self):
+        document = animated_scene([CAMERA[0], (1e37, 0.0, 0.0)])
+        moved = document["animations"][0]["channels"][0]["target"]
+        limit = "m from the origin, over the limit of 1e+09 m"
+        for node in (1, 0):  # the camera, and what is drawn
+            moved["node"] = node
+            self.scene.write_text(json.dumps(document))
+            with self.subTest(node):
+                self.draw("still.png", "--time", "0")
+                self.assertEqual(self.refused("--time", "1"), f"error: {self.scene}: at 1 s it reaches 1e+37 {limit}")
+                self.assertEqual(self.refused("--time", "0", "--frames", "0:2", "--fps", "2"),
+                                 f"error: {self.scene}: at 0.5 s it reaches 5e+36 {limit}")
+                self.assertTrue((self.folder / "x_0000.png").exists(), "frames before it are written")
+        document = animated_scene([(1.0, 1.0, 1.0), (1e30, 1e30, 1e30)])
+        document["animations"][0]["channels"][0]["target"] = {"node": 0, "path": "scale"}
+        self.scene.write_text(json.dumps(document))
+        self.assertIn(f": at 1 s it reaches 9e+30 {limit}", self.refused("--time", "1"))
+
+    def test_a_comparison_names_a_scene_that_reaches_too_far_once(self):
+        self.scene.write_text(json.dumps(animated_scene([CAMERA[0], (1e37, 0.0, 0.0)])))
+        error = self.refuse("compare", self.scene, "-o", self.folder / "report", "--size", "32x18", "--quiet", "--time",
+                            "1", "--technique", "hard", "--reference", "brute_force", "--no-cost", *SMALL_MAPS)
+        self.assertEqual(error.count(str(self.scene)), 1, error)
+        self.assertIn(": at 1 s it reaches 1e+37 m from the origin", error)
 
     def test_an_exr_tells_the_view_of_its_own_frame(self):
         self.draw("x.exr", "--frames", "5:6")

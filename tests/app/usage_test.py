@@ -93,6 +93,7 @@ class Usage(TestCase):
             ["--eye", "1,2,3"],
             ["--target", "1,2,3"],
             ["--eye=1,2,3", "--target=1,2,3"],
+            ["--eye=0,0,0", "--target=0,0,1e-30"],
             ["--eye=1,2,3", "--target=0,0,0", "--camera", "0"],
             ["--egl-device", "0", "--backend", "osmesa"],
             ["--stats-frames", "3"],
