@@ -153,6 +153,14 @@ Range held_range(const Range& range, const Region& region, const CascadeInputs& 
   return held;
 }
 
+// Half the width and height of a map, or as much more as it takes to hold receivers within `held` of the middle: with a
+// texel to be placed, and 1.5 of a texel's longer side beside each receiver (layer_edge() in
+// glsl/shadow/projection/layers.glsl).
+glm::dvec2 with_texels_beside(const glm::dvec2& half, const glm::dvec2& held, double size) {
+  const double longer = std::max({half.x, half.y, glm::max(held.x, held.y) / (1 - 5 / size)});
+  return glm::max(half, (held + 3 * longer / size) / (1 - 2 / size));
+}
+
 // About the part of the frustum up to each cascade's range, or about all receivers if that is smaller. A region turns
 // with the camera without changing size.
 std::vector<Region> stable_regions(const CascadeInputs& in, Cascades& cascades) {
@@ -223,11 +231,8 @@ Cascades fit_cascades(const CascadeInputs& in) {
     const double nearest = held_range(in_cone, region, in, cascades.cut_off).min;
     const double all_discs = in.tan_half_angle * std::max(deepest - nearest, 0.0);
     const glm::dvec2 margin = last ? glm::dvec2(all_discs) : glm::min(glm::dvec2(all_discs), 0.25 * half_width);
-    const glm::dvec2 stepped = step_up(half_width + margin, 16);
-    // Texels on each side: one to be placed, and what layer_edge() asks for beside a receiver, 1.5 of the longer side.
-    const glm::dvec2 beside = 1.0 + 1.5 * glm::max(stepped.x, stepped.y) / stepped;
-    const glm::dvec2 half = in.visible ? stepped / (1.0 - 2.0 * beside / static_cast<double>(cascades.size))
-                                       : stepped * (1.0 + 4.0 / cascades.size);
+    glm::dvec2 half = step_up(half_width + margin, 16) * (1.0 + 4.0 / cascades.size);
+    if (last) half = with_texels_beside(half, half_width, cascades.size);
     const glm::dvec2 texel = 2.0 * half / static_cast<double>(cascades.size);
     // At most a texel from the centre, so what is to be held stays inside.
     const glm::dvec2 placed =
