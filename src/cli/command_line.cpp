@@ -114,14 +114,16 @@ void refuse_equals_after_short_name(const CLI::App& options, const Arguments& ar
   }
 }
 
-// CLI11 takes "--size" in "-o --size 16x16" as the value of -o.
-void refuse_options_as_values(const CLI::App& options) {
-  for (const CLI::Option* option : options.get_options()) {
-    if (option->count() == 0 || option->get_items_expected_max() == 0) continue;
-    for (const std::string& value : option->results()) {
-      if (value.starts_with("--") && options.get_option_no_throw(value) != nullptr)
-        fail_usage("{} lacks its value: '{}' is an option", option->get_name(), value);
-    }
+// CLI11 takes "--size" in "-o --size 16x16" as the value of -o. In "--output=--size" it is one.
+void refuse_options_as_values(const CLI::App& options, const Arguments& arguments) {
+  for (std::size_t i = 0; i + 1 < arguments.size(); ++i) {
+    const std::string& value = arguments[i + 1];
+    if (arguments[i] == "--" || value == "--") return;
+    if (!arguments[i].starts_with('-') || !value.starts_with("--")) continue;
+    const CLI::Option* option = options.get_option_no_throw(arguments[i]);
+    if (option == nullptr || option->get_items_expected_max() == 0) continue;
+    if (options.get_option_no_throw(value) != nullptr)
+      fail_usage("{} lacks its value: '{}' is an option", option->get_name(), value);
   }
 }
 
@@ -190,6 +192,7 @@ bool parse(CLI::App& options, const Arguments& arguments) {
   options.allow_extras();
   group_options(options);
   refuse_equals_after_short_name(options, arguments);
+  refuse_options_as_values(options, arguments);
   try {
     options.parse(Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
   } catch (const CLI::CallForHelp&) {
@@ -203,7 +206,6 @@ bool parse(CLI::App& options, const Arguments& arguments) {
     hint_at_file(arguments);
     throw UsageError(one_line(error));
   }
-  refuse_options_as_values(options);
   if (options.remaining_size() > 0) hint_at_file(arguments);
   refuse_extras(options);
   log_from(level);

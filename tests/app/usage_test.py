@@ -243,6 +243,7 @@ class Usage(TestCase):
     def test_an_option_is_no_value_of_another_one(self):
         error = self.refuse("render", POSTS, "-o", "--size", "16x16", code=2, cwd=self.folder)
         self.assertEqual(error, "error: --output lacks its value: '--size' is an option")
+        self.assertNotIn("lacks its value", self.refuse("render", POSTS, "-o", "x.png", "--camera=--size", cwd=self.folder))
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_a_short_option_takes_no_equals_sign(self):
