@@ -64,43 +64,63 @@ struct ContenderRun {
   std::size_t shadow_bytes = 0;
 };
 
-class InterleavedRuns {
+class PartRuns {
  public:
-  InterleavedRuns(const DrawnScene& scene, const Part& part, const std::vector<ParamSet>& params,
-                  const std::vector<ReferenceFrame>& reference)
+  PartRuns(const DrawnScene& scene, const Part& part, const std::vector<ParamSet>& params,
+           const std::vector<ReferenceFrame>& reference)
       : scene_(scene),
+        part_(part),
+        params_(params),
         reference_(reference),
         range_(range_of(scene.options)),
         frames_drawn_(frames_drawn(scene.device.timers)) {
     // Programs that were deleted between two frames of a contender would be compiled again in a timed one.
     scene.device.shaders.keep_idle(std::numeric_limits<std::size_t>::max());
-    for (std::size_t i = part.first; i < part.first + part.count; ++i)
-      runs_.push_back(std::make_unique<ContenderRun>(scene, scene.options.contenders[i].label, params[i]));
   }
 
-  // A sequence's cost is that of all its frames but the first, which compiles shaders; a single picture is drawn again.
-  std::vector<ComparedTechnique> results() {
-    for (int frame = range_.first; frame <= range_.last; ++frame) {
-      for (const auto& run : runs_) measure(*run, frame);
-    }
-    const bool measured_alone = range_.count() == 1 && !scene_.options.no_cost;
-    for (int i = 0; measured_alone && i < scene_.options.cost_frames; ++i) {
-      for (const auto& run : runs_) draw(*run, scene_.path.frame(range_.first, /* again= */ true), /* timed= */ true);
-    }
+  // One contender after the other: only one of them has textures at any time.
+  std::vector<ComparedTechnique> untimed() {
     std::vector<ComparedTechnique> results;
-    for (const auto& run : runs_) {
-      results.push_back({.label = run->label,
-                         .params = &run->params,
-                         .cost = scene_.options.no_cost ? ShadowCost{.median = none, .min = none, .max = none}
-                                                        : shadow_cost(scene_.device.timers, run->timed),
-                         .shadow_bytes = run->shadow_bytes,
-                         .figures = run->sums.figures(),
-                         .pictures = std::move(run->pictures)});
+    for (std::size_t i = 0; i < part_.count; ++i) {
+      const std::unique_ptr<ContenderRun> run = start(i);
+      for (int frame = range_.first; frame <= range_.last; ++frame) measure(*run, frame);
+      results.push_back(result_of(*run, {.median = none, .min = none, .max = none}));
     }
     return results;
   }
 
+  // In turn, frame by frame. A sequence's cost is that of all its frames but the first, which compiles shaders; a
+  // single picture is drawn again.
+  std::vector<ComparedTechnique> timed() {
+    std::vector<std::unique_ptr<ContenderRun>> runs;
+    for (std::size_t i = 0; i < part_.count; ++i) runs.push_back(start(i));
+    for (int frame = range_.first; frame <= range_.last; ++frame) {
+      for (const auto& run : runs) measure(*run, frame);
+    }
+    const int again = range_.count() == 1 ? scene_.options.cost_frames : 0;
+    for (int i = 0; i < again; ++i) {
+      for (const auto& run : runs) draw(*run, scene_.path.frame(range_.first, /* again= */ true), /* timed= */ true);
+    }
+    std::vector<ComparedTechnique> results;
+    for (const auto& run : runs) results.push_back(result_of(*run, shadow_cost(scene_.device.timers, run->timed)));
+    return results;
+  }
+
  private:
+  std::unique_ptr<ContenderRun> start(std::size_t i) const {
+    return std::make_unique<ContenderRun>(scene_, scene_.options.contenders[part_.first + i].label,
+                                          params_[part_.first + i]);
+  }
+
+  static ComparedTechnique result_of(ContenderRun& run, const ShadowCost& cost) {
+    return {.label = run.label,
+            .params = &run.params,
+            .cost = cost,
+            .shadow_bytes = run.shadow_bytes,
+            .figures = run.sums.figures(),
+            .pictures = std::move(run.pictures)};
+  }
+
   void draw(ContenderRun& run, const render::FrameInputs& inputs, bool timed) {
     const std::size_t before = scene_.device.target_bytes("shadow ");
     run.renderer.draw(scene_.scene, inputs, run.params);
@@ -124,10 +144,11 @@ class InterleavedRuns {
   }
 
   const DrawnScene& scene_;
+  const Part& part_;
+  const std::vector<ParamSet>& params_;
   const std::vector<ReferenceFrame>& reference_;
   cli::FrameRange range_;
   std::size_t frames_drawn_;  // by the device
-  std::vector<std::unique_ptr<ContenderRun>> runs_;
 };
 
 }  // namespace
@@ -153,7 +174,8 @@ std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamS
 std::vector<ComparedTechnique> draw_techniques(const DrawnScene& scene, const Part& part,
                                                const std::vector<ParamSet>& params,
                                                const std::vector<ReferenceFrame>& reference) {
-  return InterleavedRuns(scene, part, params, reference).results();
+  PartRuns runs(scene, part, params, reference);
+  return scene.options.no_cost ? runs.untimed() : runs.timed();
 }
 
 }  // namespace penumbra::compare

@@ -38,8 +38,8 @@ int warmup_of(const CompareOptions& options, const ParamSet& params);
 std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamSet& params, ComparedPictures& last);
 
 // Draws the part's contenders over all frames and measures them against the reference; `params` has one set for each
-// contender of the comparison, in order. They are drawn alternately, frame by frame, so that a machine that slows down
-// during the run slows all of them alike.
+// contender of the comparison, in order. Where their cost is measured they are drawn alternately, frame by frame, so
+// that a machine that slows down during the run slows all of them alike.
 std::vector<ComparedTechnique> draw_techniques(const DrawnScene& scene, const Part& part,
                                                const std::vector<ParamSet>& params,
                                                const std::vector<ReferenceFrame>& reference);
