@@ -4,6 +4,10 @@
 //   Scramble blocker_scramble(Receiver receiver)
 #include "shadow/light.glsl"
 
+// Steps of low-discrepancy sequences: the golden ratio's, and for pairs the plastic number's (Roberts 2018).
+const float golden = 0.61803399;
+const vec2 plastic = vec2(0.75487767, 0.56984029);
+
 // Frames one above another, each a power of two wide and as high; repeats. xy: two values; zw: a key (see Scramble),
 // where there are any.
 layout(binding = 1) uniform sampler2D sample_noise;

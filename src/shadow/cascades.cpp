@@ -72,8 +72,6 @@ struct Column {
 
 // The range of light-space depths of the part of a world box within a column.
 Range range_within(const Column& column, const std::array<glm::dvec3, 8>& corners) {
-  static constexpr std::array<std::array<int, 4>, 6> faces = {
-      {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
   const glm::dvec2 half = column.half + column.slope * column.base;
   const std::array<HalfSpace, 4> sides = {{{{1, 0, column.slope}, half.x + column.center.x},
                                            {{-1, 0, column.slope}, half.x - column.center.x},
@@ -81,9 +79,9 @@ Range range_within(const Column& column, const std::array<glm::dvec3, 8>& corner
                                            {{0, -1, column.slope}, half.y - column.center.y}}};
   Range range{1e30, -1e30};
   Polygon polygon, spare;
-  for (const auto& face : faces) {
+  for (const auto& face : box_faces) {
     polygon.clear();
-    for (const int corner : face) polygon.push_back(corners[static_cast<size_t>(corner)]);
+    for (const size_t corner : face) polygon.push_back(corners[corner]);
     for (const HalfSpace& side : sides) clip(polygon, side, spare);
     for (const glm::dvec3& point : polygon) range = {std::min(range.min, point.z), std::max(range.max, point.z)};
   }

@@ -1,11 +1,17 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <vector>
 
 namespace penumbra::shadow {
 
 using Polygon = std::vector<glm::dvec3>;  // convex
+
+// The faces of a box, each by the numbers that Box::corners() gives its corners, around it.
+inline constexpr std::array<std::array<std::size_t, 4>, 6> box_faces = {
+    {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
 
 // The points with dot(p, normal) <= limit.
 struct HalfSpace {

@@ -40,12 +40,10 @@ std::vector<HalfSpace> view_sides(const CascadeInputs& in, const Cascades& casca
   return sides;
 }
 
-std::vector<Polygon> box_faces(const Box& box, const Cascades& cascades) {
-  static constexpr std::array<std::array<size_t, 4>, 6> faces = {
-      {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
+std::vector<Polygon> faces_of(const Box& box, const Cascades& cascades) {
   const std::array<glm::dvec3, 8> corners = box.corners();
   std::vector<Polygon> polygons;
-  for (const auto& face : faces) {
+  for (const auto& face : box_faces) {
     Polygon& polygon = polygons.emplace_back();
     for (const size_t corner : face) polygon.push_back(cascades.world_to_light * (corners[corner] - cascades.anchor));
   }
@@ -86,15 +84,15 @@ TexelRange texels_around(const glm::dvec2& low, const glm::dvec2& high, int size
 
 LightBounds seen_bounds(const Box& box, const CascadeInputs& inputs, const Cascades& cascades) {
   if (box.min.x > box.max.x) return {};
-  return bounds_of(within(box_faces(box, cascades), view_sides(inputs, cascades, frustum_width)));
+  return bounds_of(within(faces_of(box, cascades), view_sides(inputs, cascades, frustum_width)));
 }
 
 void narrow_to_receivers(Cascades& cascades, const CascadeInputs& inputs, const ReadMargins& margins) {
-  const LightBounds casters = bounds_of(box_faces(inputs.casters, cascades));
+  const LightBounds casters = bounds_of(faces_of(inputs.casters, cascades));
   // A block of a pyramid counts as empty unless it is drawn whole, with the row of texels around it.
   constexpr double beside_casters = 8;  // texels
   const std::vector<Polygon> seen =
-      within(box_faces(inputs.receivers, cascades), view_sides(inputs, cascades, frustum_width + margins.ndc));
+      within(faces_of(inputs.receivers, cascades), view_sides(inputs, cascades, frustum_width + margins.ndc));
   // A disc is as wide in finer cascades as in the last one, whose casters bound it.
   double nearest = margins.nearest;
   for (const Cascade& cascade : cascades.items) nearest = std::min<double>(nearest, cascade.near_z);

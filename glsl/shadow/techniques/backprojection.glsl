@@ -210,10 +210,6 @@ vec2 corner_of(Grid grid, ivec2 cell) {
   return vec2(cell_begin(grid, grid.texel.x, cell.x), cell_begin(grid, grid.texel.y, cell.y));
 }
 
-// Steps of low-discrepancy sequences: the golden ratio's, and for pairs the plastic number's (Roberts 2018).
-const float golden = 0.61803399;
-const vec2 plastic = vec2(0.75487767, 0.56984029);
-
 // The first texel of the block that is read for a cell between those corners: at a random place in a larger cell.
 ivec2 block_of(Grid grid, ivec2 cell, vec2 begin, vec2 end, Receiver receiver, vec2 jitter, Light light) {
   if (grid.complete) return grid.first + 2 * cell;

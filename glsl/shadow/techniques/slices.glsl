@@ -52,10 +52,6 @@ PixelNoise noise_of(Receiver receiver) {
   return PixelNoise(first.x, first.y, second.x, second);
 }
 
-// Steps of low-discrepancy sequences: the golden ratio's, and for pairs the plastic number's (Roberts 2018).
-const float golden = 0.61803399;
-const vec2 plastic = vec2(0.75487767, 0.56984029);
-
 // Metres: the least number that counts, and less where a scene is so small that texels are.
 float least_length(float most, float share, Receiver receiver, Light light) {
   return min(most, share * texel_size(receiver, light));
