@@ -3,6 +3,7 @@
 // share of the light that a kernel for the disc at the texel's height gives it, and the kernels smooth staircases.
 // After Guennebaud et al. 2006, "Real-time soft shadow mapping by backprojection"; see docs/techniques.md, "slices".
 #include "shadow/search.glsl"
+#include "shadow/second_layer.glsl"
 #include "lib/rows.glsl"
 
 // Lengths in this file are in texels, heights in metres.
@@ -85,9 +86,18 @@ struct HiddenLight {
 };
 
 // Whether what blocks is at different heights: then what it hides may overlap, or leave gaps that the map can't show.
-bool heights_differ(HiddenLight hidden) {
-  const float least_share = 0.6;  // of the greatest height
-  return hidden.least_height < least_share * hidden.most_height;
+bool heights_differ(HiddenLight hidden) { return hidden.least_height < least_share_of_height * hidden.most_height; }
+
+// The least height, metres, of what blocks in these texels behind what the map shows; a large number where nothing does.
+float least_height_behind(Receiver receiver, ivec2 first, Offsets offsets, float bias, Light light) {
+#if maps_layers == 2
+  vec4 depths = depths_behind(first, light);
+  vec4 heights = receiver.position.z - depths;
+  vec4 low = mix(vec4(1e30), heights, lessThan(depths, blocking_depths_at(receiver, offsets, bias)));
+  return min(min(low.x, low.y), min(low.z, low.w));
+#else
+  return 1e30;
+#endif
 }
 
 // What the texels hide, each with the kernel for its own height. `radius` bounds these discs: a surface without an edge
@@ -109,6 +119,8 @@ HiddenLight hidden_light(Receiver receiver, float radius, bool one_height, float
     bvec4 is_blocker = greaterThan(blocks, vec4(0.0));
     vec4 low = mix(vec4(1e30), heights, is_blocker), high = mix(vec4(0.0), heights, is_blocker);
     hidden.least_height = min(hidden.least_height, min(min(low.x, low.y), min(low.z, low.w)));
+    hidden.least_height =
+        min(hidden.least_height, least_height_behind(receiver, at, square.offsets, bias, light));
     hidden.most_height = max(hidden.most_height, max(max(high.x, high.y), max(high.z, high.w)));
     hidden.everywhere = hidden.everywhere && all(greaterThan(blocks + step(end * end, squared), vec4(0.0)));
     at = next_square(at, texels);

@@ -38,8 +38,8 @@ uint rings_between(float low, float high, float dither) {
 }
 
 // Samples are denser near the receiver, where penumbrae are narrow: the share of a slice's length at which one begins
-// that lies at that share of their number. With two layers still denser: below a far caster near ones are seen, too.
-float spread(float share) { return maps_layers == 2 ? share * share : share * sqrt(share); }
+// that lies at that share of their number. Still denser where near casters lie below far ones.
+float spread(float share, bool overlaps) { return overlaps ? share * share : share * sqrt(share); }
 
 // A pixel's random numbers, 0..1.
 struct PixelNoise {
@@ -62,26 +62,27 @@ float rim_radius(Receiver receiver, float height, Light light) {
   return max(penumbra_radius(receiver, height, light), least_length(1e-6, 1e-3, receiver, light));
 }
 
-struct Slice {
-  uint hidden;       // rings
-  float height_sum;  // see height_term()
+// What slices found.
+struct Found {
+  int hidden;        // rings
+  float height_sum;  // of blockers, metres along the light
+  float nearness_sum;
   float blockers;
+  bool overlaps;  // a near caster lies below a far one, which only the second layer shows
 };
 
-// The mean height of blockers, metres along the light, is that of their heights; with two layers their harmonic mean,
-// because of a near and a far caster at one place the near one makes the narrower penumbra, which must not be blurred.
-// Heights below the bias are not known.
-float height_term(Receiver receiver, float height, float bias, Light light) {
-  if (maps_layers == 1) return height;
-  return 1.0 / max(height, max(bias, least_length(1e-4, 0.1, receiver, light)));
-}
-float mean_height(float height_sum, float blockers) {
-  return maps_layers == 2 ? blockers / height_sum : max(height_sum / blockers, 0.0);
+Found nothing_found(bool overlaps) { return Found(0, 0.0, 0.0, 0.0, overlaps); }
+
+// Mean height of blockers. Of a near and a far caster at one place the near one makes the narrower penumbra, which must
+// not be blurred, so there it is the harmonic mean.
+float mean_height(Found found) {
+  return found.overlaps ? found.blockers / found.nearness_sum : max(found.height_sum / found.blockers, 0.0);
 }
 
-#if maps_layers == 2
-layout(binding = UNIT_second_layer) uniform sampler2DArray second_layer;
-#endif
+// Heights below the bias are not known.
+float nearness_of(Receiver receiver, float height, float bias, Light light) {
+  return 1.0 / max(height, max(bias, least_length(1e-4, 0.1, receiver, light)));
+}
 
 const float beyond_rim = 2.0;  // a share of the rim's radius: no ray
 
@@ -107,20 +108,21 @@ bool goes_on(Blocker before, float height, float at, Receiver receiver, Light li
   return maps_layers == 1 || abs(height - before.height) <= steepest * cone_slope(receiver, light) * (at - before.at);
 }
 
-// Adds the rays that a texel of that depth hides, if it is nearer to the light than `blocking`; `before`: the sample
-// before it on the line.
-Blocker add_texel(inout Slice slice, Receiver receiver, float depth, float blocking, float bias, Stretch stretch,
-                  Blocker before, float dither, Light light) {
+// Adds the rays that a texel of that depth hides to `rings`, if it is nearer to the light than `blocking`; `before`: the
+// sample before it on the line.
+Blocker add_texel(inout Found found, inout uint rings, Receiver receiver, float depth, float blocking, float bias,
+                  Stretch stretch, Blocker before, float dither, Light light) {
   if (depth >= blocking) return no_blocker;
   float height = receiver.position.z - depth;
   float per_metre = 1.0 / rim_radius(receiver, height, light);
   float low = stretch.begin * per_metre;
   if (goes_on(before, height, stretch.at, receiver, light)) low = min(low, before.hidden_to);
   float high = stretch.last ? beyond_rim : stretch.end * per_metre;
-  uint rings = rings_between(low, high, dither);
-  slice.hidden |= rings;
-  slice.height_sum += rings != 0u ? height_term(receiver, height, bias, light) : 0.0;
-  slice.blockers += rings != 0u ? 1.0 : 0.0;
+  uint hides = rings_between(low, high, dither);
+  rings |= hides;
+  found.height_sum += hides != 0u ? height : 0.0;
+  if (maps_layers == 2) found.nearness_sum += hides != 0u ? nearness_of(receiver, height, bias, light) : 0.0;
+  found.blockers += hides != 0u ? 1.0 : 0.0;
   return Blocker(high, height, stretch.at);
 }
 
@@ -130,23 +132,24 @@ struct Counts {
 };
 
 // Under a narrow light a slice mostly crosses one edge: two thirds of slices.samples are enough, and there are more
-// slices instead. Under a wide light, and with two layers, it crosses several. More than two samples a texel would
-// read the same texels again.
-Counts counts_for(Receiver receiver, float radius, Light light) {
+// slices instead. Under a wide light, and where casters overlap, it crosses several. More than two samples a texel
+// would read the same texels again.
+Counts counts_for(Receiver receiver, float radius, bool overlaps, Light light) {
   // Of the cone to the light: its radius for each metre along the light.
   const float narrow = 0.02, wide = 0.05;
   float wideness = clamp((1.0 / cone_slope(receiver, light) - narrow) / (wide - narrow), 0.0, 1.0);
-  float share = maps_layers == 2 ? 1.0 : mix(2.0 / 3.0, 1.0, wideness);
+  float share = overlaps ? 1.0 : mix(2.0 / 3.0, 1.0, wideness);
   int samples = max(int(share * float(slices_samples) + 0.5), 1);
   int azimuths = slices_azimuths * slices_samples / samples;
   samples = slices_azimuths * slices_samples / azimuths;  // what whole slices leave over
   return Counts(azimuths, min(samples, int(2.0 * radius / texel_size(receiver, light)) + 3));
 }
 
-// `share`: the slice's place on the rim, as for rim_point(); `index`: its number among the pixel's slices.
-Slice walk(Receiver receiver, float share, int index, int samples, float radius, PixelNoise noise, float bias,
-           Light light) {
-  Slice slice = Slice(0u, 0.0, 0.0);
+// Follows a slice and adds what it finds. `share`: its place on the rim, as for rim_point(); `index`: its number among
+// the pixel's slices; `overlaps`: whether casters are known to.
+void walk(inout Found found, Receiver receiver, float share, int index, int samples, bool overlaps, float radius,
+          PixelNoise noise, float bias, Light light) {
+  uint rings = 0u;
   float rim_texel = texel_size(receiver, light);
   vec2 texel = texel_extent(receiver, light);
   vec2 place = map_place(receiver.position, light);
@@ -157,7 +160,7 @@ Slice walk(Receiver receiver, float share, int index, int samples, float radius,
   Blocker before = no_blocker, second_before = no_blocker;
   int i = 0;
   do {
-    float end = (radius + rim_texel) * spread(float(i + 1) / float(samples));
+    float end = (radius + rim_texel) * spread(float(i + 1) / float(samples), overlaps);
     float at = mix(begin, end, jitter);
     // Moved by up to half a texel: the mean over many samples then weights texels as bilinear filters do.
     vec2 moved = fract(noise.texel + plastic * float(index * slices_samples + i)) - 0.5;
@@ -165,22 +168,25 @@ Slice walk(Receiver receiver, float share, int index, int samples, float radius,
     vec2 offset = texel_offset(receiver, cell, light);
     float blocking = blocking_depths_at(receiver, Offsets(vec4(offset.x), vec4(offset.y)), bias).x;
     Stretch stretch = Stretch(begin, at, end, i + 1 == samples);
-    before = add_texel(slice, receiver, depth_at(cell, light), blocking, bias, stretch, before, dither, light);
+    before = add_texel(found, rings, receiver, depth_at(cell, light), blocking, bias, stretch, before, dither, light);
 #if maps_layers == 2
-    float behind = depth_in(second_layer, cell, light);
-    second_before = add_texel(slice, receiver, behind, blocking, bias, stretch, second_before, dither, light);
+    uint behind = 0u;
+    second_before = add_texel(found, behind, receiver, depth_behind(cell, light), blocking, bias, stretch,
+                              second_before, dither, light);
+    found.overlaps = found.overlaps || behind != 0u && second_before.height < least_share_of_height * before.height;
+    rings |= behind;
 #endif
     begin = end;
   } while (++i < samples);
-  return slice;
+  found.hidden += bitCount(rings);
 }
 
-// How many times slices.azimuths slices a pixel in a penumbra gets, whose mean blocker is that high: more where the
-// penumbra is narrow on the screen, since there no filter finds neighbours that it could average.
-int rounds_for(Receiver receiver, float height, Light light) {
+// How many times slices.azimuths slices a pixel in a penumbra gets: more where the penumbra is narrow on the screen,
+// since there no filter finds neighbours that it could average. Where casters overlap the first round does not count.
+int rounds_for(Receiver receiver, Found found, Light light) {
   const int most = clamp(20000 / (slices_azimuths * (slices_samples + 2)), 1, 4);
-  float width = 2.0 * penumbra_radius(receiver, height, light) / pixel_width(view_position_of(receiver));
-  return min(1 + int(float(slices_narrow) / max(width, 0.01)), most);
+  float width = 2.0 * penumbra_radius(receiver, mean_height(found), light) / pixel_width(view_position_of(receiver));
+  return min((found.overlaps ? 2 : 1) + int(float(slices_narrow) / max(width, 0.01)), most);
 }
 
 Visibility visibility(Receiver receiver, Light light) {
@@ -195,35 +201,33 @@ Visibility visibility(Receiver receiver, Light light) {
     centre.noise_free = decided;
     return centre;
   }
-  // A caster that only the second layer shows may be at another height.
-  float most_filtered = maps_layers == 1 ? float(slices_filter_radius) : min(float(slices_filter_radius), 1.0);
-  if (radius < most_filtered * texel) {
+  if (radius < float(slices_filter_radius) * texel) {
     FilteredTexels filtered = filter_texels(receiver, radius, bias, light);
     if (!filtered.heights_differ) return filtered.seen;
   }
-  Counts counts = counts_for(receiver, radius, light);
   PixelNoise noise = noise_of(receiver);
-  int hidden = 0, rounds = 1;
-  float height_sum = 0.0, blockers = 0.0;
-  int turn = 0;
+  Found found = nothing_found(false);
+  int slices = 0, rounds = 1, turn = 0;
   do {
+    Counts counts = counts_for(receiver, radius, found.overlaps, light);
     // Each round's slices lie between those of the others.
     float first = noise.azimuth + float(turn) / float(rounds);
+    bool overlaps = found.overlaps;
     int azimuth = 0;
     do {
       float share = (float(azimuth) + first) / float(counts.azimuths);
-      int index = turn * counts.azimuths + azimuth;
-      Slice slice = walk(receiver, share, index, counts.samples, radius, noise, bias, light);
-      hidden += bitCount(slice.hidden);
-      height_sum += slice.height_sum;
-      blockers += slice.blockers;
+      walk(found, receiver, share, slices + azimuth, counts.samples, overlaps, radius, noise, bias, light);
     } while (++azimuth < counts.azimuths);
-    if (turn == 0 && hidden > 0 && hidden < ring_count * counts.azimuths)
-      rounds = rounds_for(receiver, mean_height(height_sum, blockers), light);
+    slices += counts.azimuths;
+    if (turn == 0 && found.hidden > 0 && found.hidden < ring_count * slices) rounds = rounds_for(receiver, found, light);
+    // Too few samples of that round were near the receiver.
+    if (turn == 0 && found.overlaps && rounds > 1) {
+      found = nothing_found(true);
+      slices = 0;
+    }
   } while (++turn < rounds);
-  if (hidden == 0) return fully_lit();
-  float mean = mean_height(height_sum, blockers);
+  if (found.hidden == 0) return fully_lit();
+  float mean = mean_height(found);
   float penumbra = penumbra_radius(receiver, mean, light);
-  return Visibility(1.0 - float(hidden) / float(ring_count * counts.azimuths * rounds), penumbra, mean,
-                    penumbra < texel, false);
+  return Visibility(1.0 - float(found.hidden) / float(ring_count * slices), penumbra, mean, penumbra < texel, false);
 }

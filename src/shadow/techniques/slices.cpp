@@ -17,11 +17,12 @@ Technique slices() {
               // Mesa's software rasteriser ends loops after 65,535 iterations in total, and seams draw up to three
               // layers.
               {"slices.azimuths", 8, 1, 128, "slices",
-               "Directions in which a pixel's light is followed: about half as many again under a narrow light, with "
-               "one layer.",
+               "Directions in which a pixel's light is followed: about half as many again under a narrow light, unless "
+               "casters overlap.",
                compiled},
               {"slices.samples", 8, 1, 128, "texels",
-               "Texels that are read along each slice: two thirds of them under a narrow light, with one layer.",
+               "Texels that are read along each slice: two thirds of them under a narrow light, unless casters "
+               "overlap.",
                compiled},
               {"slices.narrow", 0, 0, 64, "px",
                "Where a penumbra is narrower than this in the picture, up to four times as many slices are followed, "
@@ -29,8 +30,7 @@ Technique slices() {
                compiled},
               {"slices.filter_radius", 8, 0, 16, "texels",
                "Where everything that can block the light lies within so many texels, and at nearly one height, all of "
-               "these texels are filtered, without slices and without noise. With two layers only below a texel. 0: "
-               "nowhere.",
+               "these texels are filtered, without slices and without noise. 0: nowhere.",
                compiled},
           },
       .decides_tiles = true,
