@@ -64,8 +64,8 @@ struct Stage {
 
 void draw(Stage& stage, const Way& way) {
   const shadow::DrawCasters draw = [&](const shadow::CasterPass& casters, gl::Pass& pass) {
-    stage.scene.draw_casters(stage.device, pass, casters_of(casters.kind), casters.world_to_clip,
-                             [&](const scene::Bounds& box) {
+    stage.scene.draw_casters(stage.device, pass, casters_of(casters.kind),
+                             {casters.anchored.to_clip, casters.anchored.anchor}, [&](const scene::Bounds& box) {
                                return casters.cull.holds(box_of(box)) ? scene::Overlap::part : scene::Overlap::none;
                              });
   };

@@ -16,10 +16,12 @@ layout(location = 6) in uint instance;
 layout(location = 7) in mat4 world;
 #endif
 
-uniform mat4 world_to_clip;
+uniform mat4 to_clip;  // from positions less the anchor
+uniform vec3 anchor;   // world space
 
 // Invariant, because later passes test against the depths that this one leaves and must compute bit-identical
-// positions. surface.vert computes them by the same expressions: the G-buffer tests for equal depth.
+// positions. surface.vert computes them by the same expressions but for the anchor, which is 0 where the G-buffer tests
+// for equal depth.
 invariant gl_Position;
 
 #if MASKED
@@ -33,7 +35,9 @@ void main() {
 #if LAST_POSE
   mat4 world = instances[instance].last_world;
 #endif
-  gl_Position = world_to_clip * (world * vec4(position, 1.0));
+  vec4 place = world * vec4(position, 1.0);
+  place.xyz -= anchor;
+  gl_Position = to_clip * place;
 #if MASKED
   caster.uv = uv;
   caster.color = color;

@@ -19,7 +19,7 @@ struct LayerBlock {
   float depth_range;      // from near_depth to the depth that the map stores as 1, metres
   float rounding;         // bias along the light that covers rounding, metres
   float texel_uv;         // width of a texel in texture coordinates
-  float unused;
+  float position_rounding;  // the same for rounding of positions in the world, metres also of a lamp
 };
 
 struct ShadowBlock {

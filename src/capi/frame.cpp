@@ -109,6 +109,8 @@ penumbra_caster_pass pass_of(const shadow::CasterPass& casters, penumbra_device&
   pass.kind = kind_of(casters.kind);
   pass.layer = casters.layer;
   std::copy_n(glm::value_ptr(casters.world_to_clip), 16, pass.world_to_clip);
+  std::copy_n(glm::value_ptr(casters.anchored.to_clip), 16, pass.anchored_to_clip);
+  std::copy_n(glm::value_ptr(casters.anchored.anchor), 3, pass.anchor);
   for (std::size_t i = 0; i < casters.cull.planes.size(); ++i) {
     std::copy_n(glm::value_ptr(casters.cull.planes[i]), 4, pass.cull_planes[i]);
   }

@@ -322,7 +322,8 @@ typedef struct penumbra_caster_pass {
                                twice in a frame, with another matrix */
   int32_t view_id;          /**< of the frame */
   uint32_t reserved;        /**< 0 */
-  float world_to_clip[16];  /**< clip space has z in 0..1 (GL_ZERO_TO_ONE is set), 0 at the light */
+  float world_to_clip[16];  /**< clip space has z in 0..1 (GL_ZERO_TO_ONE is set), 0 at the light; see
+                               anchored_to_clip */
   double cull_planes[6][4]; /**< a caster of which every point p has dot(plane.xyz, p) + plane.w < 0 for one of these
                                planes need not be drawn; world space, xyz of unit length; all 0: unused */
   float light_place[4];     /**< world: xyz the direction to a sun and w 0, or the centre of a lamp and w 1 */
@@ -336,6 +337,11 @@ typedef struct penumbra_caster_pass {
   const char* geometry_shader;
   const char* fragment_shader; /**< see geometry_shader; null too if only depth and stencil are written */
   uint64_t program_id;         /**< from 1: the same for the same texts; 0 for other kinds */
+  /** world_to_clip for positions less `anchor`: gl_Position = anchored_to_clip * vec4(position - anchor, 1). Far from
+   * the world's origin world_to_clip has too few digits, so that surfaces shadow themselves: under lamps from about
+   * 50 m, under suns from 2 km on. Equal to it, with an anchor of 0, for PENUMBRA_PASS_GEOMETRY. */
+  float anchored_to_clip[16];
+  float anchor[4]; /**< world, metres; w is 0 */
 } penumbra_caster_pass;
 
 /** Draws casters and returns 0; another value ends penumbra_render() with PENUMBRA_ERROR_CALLBACK. Framebuffer,

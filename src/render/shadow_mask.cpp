@@ -52,6 +52,10 @@ scene::CasterSubset casters_of(shadow::CasterKind kind) {
   return scene::CasterSubset::all;
 }
 
+scene::CasterMatrix matrix_of(const shadow::CasterPass& casters) {
+  return {.to_clip = casters.anchored.to_clip, .anchor = casters.anchored.anchor};
+}
+
 scene::FirstLayer first_layer_of(const shadow::CasterPass& casters) {
   return {.texture = casters.first.texture, .layer = casters.layer, .gap = casters.first.gap};
 }
@@ -94,9 +98,9 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
     } else {
       const auto reaches = [&](const scene::Bounds& box) { return overlap_of(casters.cull, box_of(box)); };
       if (casters.kind == shadow::CasterKind::second_depth) {
-        inputs.scene.draw_casters_behind(device, pass, first_layer_of(casters), casters.world_to_clip, reaches);
+        inputs.scene.draw_casters_behind(device, pass, first_layer_of(casters), matrix_of(casters), reaches);
       } else {
-        inputs.scene.draw_casters(device, pass, casters_of(casters.kind), casters.world_to_clip, reaches);
+        inputs.scene.draw_casters(device, pass, casters_of(casters.kind), matrix_of(casters), reaches);
       }
     }
   };

@@ -39,6 +39,12 @@ enum class CasterSubset {
   moved_last,  // casters that moved, at their last position; writes 1 to output 0
 };
 
+// Takes positions in the world, less an anchor, metres, to clip space.
+struct CasterMatrix {
+  glm::mat4 to_clip{1};
+  glm::vec3 anchor{0};
+};
+
 // Depths that an earlier pass left, for drawing what lies behind them.
 struct FirstLayer {
   unsigned texture = 0;  // OpenGL name of an array of depths
@@ -76,11 +82,11 @@ class GpuScene {
                     const Distance& distance);
   // Draws the shadow casters: opaque surfaces, and masked and blended ones where their alpha passes. Of a large mesh
   // that overlaps in part, `reaches` is asked for its parts too.
-  void draw_casters(gl::Device& device, gl::Pass& pass, CasterSubset casters, const glm::mat4& world_to_clip,
+  void draw_casters(gl::Device& device, gl::Pass& pass, CasterSubset casters, const CasterMatrix& matrix,
                     const BoxOverlap& reaches);
   // Draws the depth of all casters behind the first layer: of double-sided materials both faces, of others only the
   // face towards the light, unless they were told to cast from their back faces.
-  void draw_casters_behind(gl::Device& device, gl::Pass& pass, const FirstLayer& first, const glm::mat4& world_to_clip,
+  void draw_casters_behind(gl::Device& device, gl::Pass& pass, const FirstLayer& first, const CasterMatrix& matrix,
                            const BoxOverlap& reaches);
   // Draws the triangles of opaque and masked casters with caster_geometry_programs(stages), without the alpha test of
   // masked surfaces. Where only one face casts, a triangle whose other face is towards the light has all corners in one

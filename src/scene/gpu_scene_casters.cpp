@@ -14,7 +14,7 @@ namespace {
 // Whether triangles that are counter-clockwise as seen from the light are clockwise in its map. A map with x to the
 // right, y up and depth growing away from the light is left-handed, so a matrix that keeps their order has a negative
 // determinant.
-bool turns_round(const glm::mat4& world_to_clip) { return glm::determinant(world_to_clip) > 0; }
+bool turns_round(const glm::mat4& to_clip) { return glm::determinant(to_clip) > 0; }
 
 // Behind the first layer only one face of single-sided materials casts: a closed object's underside would hide what
 // lies below it.
@@ -70,9 +70,14 @@ gl::ProgramDesc caster_program(const CasterDraw& which, const SurfaceTraits& tra
   return program;
 }
 
+void set_matrix(const gl::Program& program, const CasterMatrix& matrix) {
+  program.set("to_clip", matrix.to_clip);
+  program.set("anchor", matrix.anchor);
+}
+
 void GpuScene::State::draw_casters(gl::Device& device, gl::Pass& pass, const CasterDraw& which,
-                                   const glm::mat4& world_to_clip, const BoxOverlap& reaches) const {
-  const bool flips = turns_round(world_to_clip);
+                                   const CasterMatrix& matrix, const BoxOverlap& reaches) const {
+  const bool flips = turns_round(matrix.to_clip);
   for (const bool masked : {false, true}) {
     DrawList list;
     for (std::uint32_t i = 0; i < instances.size(); ++i) {
@@ -92,16 +97,16 @@ void GpuScene::State::draw_casters(gl::Device& device, gl::Pass& pass, const Cas
     }
     const auto use = [&](const SurfaceTraits& traits) {
       const gl::Program& program = pass.use(caster_program(which, traits));
-      program.set("world_to_clip", world_to_clip);
+      set_matrix(program, matrix);
       if (which.behind != nullptr) bind_first_layer(device, program, *which.behind);
     };
     draw(device, pass, list, use);
   }
 }
 
-void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, CasterSubset casters, const glm::mat4& world_to_clip,
+void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, CasterSubset casters, const CasterMatrix& matrix,
                             const BoxOverlap& reaches) {
-  const auto draw = [&](const CasterDraw& which) { state_->draw_casters(device, pass, which, world_to_clip, reaches); };
+  const auto draw = [&](const CasterDraw& which) { state_->draw_casters(device, pass, which, matrix, reaches); };
   switch (casters) {
     case CasterSubset::all:
       draw({.still = true, .moved = true});
@@ -123,8 +128,8 @@ void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, CasterSubset cas
 }
 
 void GpuScene::draw_casters_behind(gl::Device& device, gl::Pass& pass, const FirstLayer& first,
-                                   const glm::mat4& world_to_clip, const BoxOverlap& reaches) {
-  state_->draw_casters(device, pass, {.still = true, .moved = true, .behind = &first}, world_to_clip, reaches);
+                                   const CasterMatrix& matrix, const BoxOverlap& reaches) {
+  state_->draw_casters(device, pass, {.still = true, .moved = true, .behind = &first}, matrix, reaches);
 }
 
 }  // namespace penumbra::scene

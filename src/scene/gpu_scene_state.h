@@ -82,6 +82,7 @@ struct CasterDraw {
 SurfaceTraits depth_traits(const Instance& instance, bool masked);
 // The program that draws the depth of casters as `which` says, where their alpha passes if they are masked.
 gl::ProgramDesc caster_program(const CasterDraw& which, const SurfaceTraits& traits);
+void set_matrix(const gl::Program& program, const CasterMatrix& matrix);
 
 // A pose on the GPU: the deformed vertices at one time.
 struct PosedVertices {
@@ -125,7 +126,7 @@ struct GpuScene::State {
   // For vertex shaders that read the index buffer themselves.
   void draw_unindexed(gl::Device& device, gl::Pass& pass, const DrawList& list) const;
   std::vector<Run> nearest_first(AlphaMode mode, const BoxTest& visible, const Distance& distance) const;
-  void draw_casters(gl::Device& device, gl::Pass& pass, const CasterDraw& which, const glm::mat4& world_to_clip,
+  void draw_casters(gl::Device& device, gl::Pass& pass, const CasterDraw& which, const CasterMatrix& matrix,
                     const BoxOverlap& reaches) const;
   DrawList caster_geometry(std::optional<CasterFaces> faces, const BoxTest& reaches) const;
 };

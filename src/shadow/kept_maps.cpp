@@ -13,6 +13,7 @@ MapContent content_of(const gl::Device& device, const gl::Texture& map, const Li
                      .layers = {}};
   for (int i = 0; i < content.count; ++i) {
     content.layers[static_cast<size_t>(i)] = {.world_to_clip = projection.world_to_clip(i),
+                                              .anchored = projection.anchored_to_clip(i),
                                               .cull = projection.cull_volume(i),
                                               .drawn = projection.drawn_texels(i)};
   }
@@ -26,8 +27,8 @@ LayerSet unchanged_layers(const MapContent& last, const MapContent& now, const s
   if (!same_map) return unchanged;
   for (size_t i = 0; i < static_cast<size_t>(now.count); ++i) {
     const MapContent::Layer& held = last.layers[i];
-    unchanged[i] = held.world_to_clip == now.layers[i].world_to_clip && held.drawn.contains(now.layers[i].drawn) &&
-                   !may_hold_moved(held.cull, moved);
+    unchanged[i] = held.world_to_clip == now.layers[i].world_to_clip && held.anchored == now.layers[i].anchored &&
+                   held.drawn.contains(now.layers[i].drawn) && !may_hold_moved(held.cull, moved);
   }
   return unchanged;
 }

@@ -13,6 +13,7 @@ namespace penumbra::shadow {
 struct MapContent {
   struct Layer {
     glm::mat4 world_to_clip{1};
+    AnchoredMatrix anchored;
     CullVolume cull;
     TexelRange drawn;
   };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>
 
@@ -16,8 +17,11 @@ namespace {
 
 static_assert(SHADOW_MAX_LAYERS == max_layers && max_cascades <= max_layers);
 
-// `shift`: where the origin of the cascades' light space lies in the view's, whose origin is the camera.
-glsl::LayerBlock layer_block(const Cascade& cascade, int size, const glm::dvec3& shift) {
+// What float's precision leaves of positions in the world, in the map's and in the receivers' matrices, metres.
+float position_rounding(const glm::dvec3& place) { return 2.4e-7f * static_cast<float>(glm::length(place)); }
+
+// `shift`: where the origin of the cascades' light space lies in the view's, whose origin is the camera, at `eye`.
+glsl::LayerBlock layer_block(const Cascade& cascade, int size, const glm::dvec3& shift, const glm::dvec3& eye) {
   const float range = cascade.far_z - cascade.near_z;
   const glm::vec2 texel = 2.0f * cascade.half_extent / static_cast<float>(size);
   const float larger = glm::max(texel.x, texel.y);
@@ -31,7 +35,7 @@ glsl::LayerBlock layer_block(const Cascade& cascade, int size, const glm::dvec3&
           .depth_range = range,
           .rounding = rounding,
           .texel_uv = 1.0f / static_cast<float>(size),
-          .unused = 0};
+          .position_rounding = position_rounding(eye)};
 }
 
 // Least depth along the rays, relative to the camera, of a box.
@@ -54,7 +58,7 @@ glsl::LayerBlock layer_block(const LampMaps& lamp) {
           .depth_range = range,
           .rounding = 4e-7f * range,
           .texel_uv = 1.0f / static_cast<float>(lamp.size),
-          .unused = 0};
+          .position_rounding = position_rounding(lamp.position)};
 }
 
 void write_to(glsl::ShadowBlock& block, const Cascades& cascades, const glm::dmat4& view_to_world,
@@ -70,7 +74,7 @@ void write_to(glsl::ShadowBlock& block, const Cascades& cascades, const glm::dma
   const double nearest = cascades.items.empty() ? 0.0 : cascades.items.back().near_z + shift.z;
   block.moved_depth = moved ? least_depth(world_to_light, *moved, eye) : static_cast<float>(nearest);
   for (size_t i = 0; i < cascades.items.size(); ++i) {
-    block.widest = block.layers[i] = layer_block(cascades.items[i], cascades.size, shift);
+    block.widest = block.layers[i] = layer_block(cascades.items[i], cascades.size, shift, eye);
   }
 }
 
@@ -134,6 +138,12 @@ const glm::dmat4& clip_matrix(const Cascades& cascades, int layer) {
   return cascades.items.at(static_cast<size_t>(layer)).world_to_clip;
 }
 glm::dmat4 clip_matrix(const LampMaps& lamp, int layer) { return lamp.world_to_clip(layer); }
+
+// The middle of a cascade, and a lamp's centre.
+glm::dvec3 anchor_of(const Cascades&, const glm::dmat4& world_to_clip) {
+  return glm::dvec3(glm::inverse(world_to_clip) * glm::dvec4(0, 0, 0.5, 1));
+}
+glm::dvec3 anchor_of(const LampMaps& lamp, const glm::dmat4&) { return lamp.position; }
 
 CullVolume volume_of(const Cascades& cascades, int layer) { return cull_volume(cascades, layer); }
 CullVolume volume_of(const LampMaps& lamp, int layer) { return lamp.cull_volume(layer); }
@@ -212,6 +222,16 @@ float LightProjection::depth_range(int layer) const {
 
 glm::mat4 LightProjection::world_to_clip(int layer) const {
   return std::visit([&](const auto& maps) { return glm::mat4(clip_matrix(maps, layer)); }, maps_);
+}
+
+AnchoredMatrix LightProjection::anchored_to_clip(int layer) const {
+  return std::visit(
+      [&](const auto& maps) {
+        const glm::dmat4 world_to_clip = clip_matrix(maps, layer);
+        const glm::vec3 anchor(anchor_of(maps, world_to_clip));
+        return AnchoredMatrix{glm::mat4(glm::translate(world_to_clip, glm::dvec3(anchor))), anchor};
+      },
+      maps_);
 }
 
 CullVolume LightProjection::cull_volume(int layer) const {

@@ -65,6 +65,15 @@ struct LightShape {
   bool operator==(const LightShape&) const = default;
 };
 
+// Takes positions in the world, less `anchor`, to clip space. Where the anchor is near them, that is as precise far
+// from the world's origin as at it. The difference must be rounded to floats before it is transformed.
+struct AnchoredMatrix {
+  glm::mat4 to_clip{1};
+  glm::vec3 anchor{0};  // world space, metres
+
+  bool operator==(const AnchoredMatrix&) const = default;
+};
+
 // Places the layers of a light's shadow map in the world, and converts their depths. A layer stores 0 at its near plane
 // and 1 at its far plane: of a sun a linear function of the depth along its rays, of a lamp one of −1 / depth.
 class LightProjection {
@@ -87,6 +96,7 @@ class LightProjection {
   float depth_range(int layer) const;
   // From world space to clip space of a layer: x and y in -1..1 within the map, z in 0..1, which is the stored depth.
   glm::mat4 world_to_clip(int layer) const;
+  AnchoredMatrix anchored_to_clip(int layer) const;
   // World space. Casters outside of it can't shadow any receiver that reads the layer.
   CullVolume cull_volume(int layer) const;
   // Casters outside of it can't shadow any receiver of the view.

@@ -45,6 +45,7 @@ void draw_pose(gl::Device& device, const MovementInputs& inputs, CasterKind kind
   inputs.draw({.kind = kind,
                .layer = layer,
                .world_to_clip = inputs.projection.world_to_clip(layer),
+               .anchored = inputs.projection.anchored_to_clip(layer),
                .cull = inputs.projection.cull_volume(layer),
                .source = inputs.source},
               pass);

@@ -149,6 +149,7 @@ CasterPass PassContext::caster_pass(CasterKind kind, int layer) const {
   return {.kind = kind,
           .layer = layer,
           .world_to_clip = projection.world_to_clip(layer),
+          .anchored = projection.anchored_to_clip(layer),
           .cull = projection.cull_volume(layer),
           .source = light().source};
 }
@@ -173,6 +174,7 @@ void PassContext::draw_caster_geometry(gl::Pass& pass, std::string_view program,
   work_.inputs.draw({.kind = CasterKind::geometry,
                      .layer = 0,
                      .world_to_clip = world_to_clip,
+                     .anchored = {.to_clip = world_to_clip, .anchor = glm::vec3(0)},
                      .cull = work_.frame.projection.cull_volume_of_all(),
                      .source = light().source,
                      .program = own_program(program)},

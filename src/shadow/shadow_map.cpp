@@ -41,6 +41,7 @@ void draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs) {
     inputs.draw({.kind = kind,
                  .layer = i,
                  .world_to_clip = inputs.projection.world_to_clip(i),
+                 .anchored = inputs.projection.anchored_to_clip(i),
                  .cull = cull,
                  .source = inputs.source},
                 pass);

@@ -79,7 +79,7 @@ class MovedCasters : public RenderTest {
       gl::Pass pass(device, desc);
       const glm::mat4 world_to_clip =
           glm::translate(glm::scale(glm::mat4(1), glm::vec3(0.25f, 0.25f, -0.1f)), glm::vec3(0, 0, -5));
-      gpu_scene->draw_casters(device, pass, casters, world_to_clip,
+      gpu_scene->draw_casters(device, pass, casters, {.to_clip = world_to_clip},
                               [](const scene::Bounds&) { return scene::Overlap::all; });
     }
     return {gl::read_floats(marks, 1), gl::read_floats(depth, 1)};

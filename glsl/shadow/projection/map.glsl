@@ -115,7 +115,7 @@ float texel_slope(Receiver receiver, Light light) { return length(receiver.gradi
 // metres.
 float depth_rounding(Receiver receiver, Light light) {
   const float texels_beside = 2.0;  // that are compared with the plane of a receiver without blockers
-  float rounding = light.map.rounding + receiver.depth_error;
+  float rounding = light.map.rounding + light.map.position_rounding + receiver.depth_error;
   rounding += texels_beside * receiver.depth_tilt * texel_size(receiver, light);
   return is_lamp ? rounding + 1e-6 * (length(shadow.lamp.xyz) + length(receiver.from_lamp)) : rounding;
 }
