@@ -170,7 +170,9 @@ std::vector<Region> stable_regions(const CascadeInputs& in, Cascades& cascades) 
     Sphere sphere = frustum_sphere(in, start + view.min, start + end);
     if (all.radius < sphere.radius) sphere = all;
     const glm::dvec3 center = cascades.world_to_light * (sphere.center - cascades.anchor);
-    regions.push_back({center, glm::dvec2(sphere.radius), center.z - sphere.radius, center.z + sphere.radius});
+    // The receivers' box may be a point, whose place the GPU computes in floats.
+    const double radius = std::max({sphere.radius, 1e-4 * glm::length(center), 1e-6});
+    regions.push_back({center, glm::dvec2(radius), center.z - radius, center.z + radius});
   }
   return regions;
 }
@@ -239,7 +241,8 @@ Cascades fit_cascades(const CascadeInputs& in) {
     Range range = held_range(range_within({placed, half}, corners), region, in, cascades.cut_off);
     const double wider = glm::max(half_width.x, half_width.y);
     if (range.max < range.min) range = {center.z - wider, center.z + wider};
-    const double pad = 1e-3 * (range.max - range.min) + glm::max(texel.x, texel.y);
+    const double rounding = 1e-6 * std::max(std::abs(range.min), std::abs(range.max));
+    const double pad = std::max(1e-3 * (range.max - range.min) + glm::max(texel.x, texel.y), rounding);
     Cascade cascade;
     cascade.center = glm::vec2(placed);
     cascade.half_extent = glm::vec2(half);

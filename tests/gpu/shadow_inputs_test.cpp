@@ -76,6 +76,18 @@ TEST_F(ShadowInputs, MatricesAndBoxesAreChecked) {
   })) << "none moved";
 }
 
+TEST_F(ShadowInputs, BoxesMayBePoints) {
+  for (const char* fit : {"stable", "visible", "penumbrae"}) {
+    params.set("cascades.fit", std::string(fit));
+    EXPECT_NO_THROW(renderer.render(box_on_ground(48), params, [](shadow::Inputs& in) {
+      in.receivers = {glm::vec3(0.5f), glm::vec3(0.5f)};
+    })) << fit;
+    EXPECT_NO_THROW(renderer.render(box_on_ground(48), params, [](shadow::Inputs& in) {
+      in.casters = in.receivers = {glm::vec3(0.5f), glm::vec3(0.5f)};
+    })) << fit;
+  }
+}
+
 glm::mat4 finite_perspective(bool reversed, bool zero_to_one, float near, float far) {
   const float first = reversed ? far : near, last = reversed ? near : far;
   return zero_to_one ? glm::perspectiveRH_ZO(0.8f, 1.0f, first, last) : glm::perspectiveRH_NO(0.8f, 1.0f, first, last);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "shadow/light_projection.h"
+
 namespace penumbra::shadow {
 namespace {
 
@@ -257,6 +259,26 @@ TEST(Cascades, WideBoundsAreCutOffUnlessTheyAreExact) {
   EXPECT_EQ(fit_cascades(in).cut_off, CutOff{});
   EXPECT_GT(last().half_extent.x, 1e4);
   EXPECT_GT(last().far_z - last().near_z, 1e6);
+}
+
+// As it is before an engine has loaded anything but one object's place.
+TEST(Cascades, ReceiversMayBeAPoint) {
+  for (const float distance : {0.0f, 5.0f, 1e3f, 1e5f}) {
+    CascadeInputs in = courtyard();
+    const glm::vec3 point = glm::vec3(3, 1.7f, 8) + distance * glm::normalize(glm::vec3(-3, -0.7f, -8));
+    in.receivers = {point, point};
+    for (const Box& casters : {in.receivers, in.casters, Box{point + 1.0f, point + 1.0f}}) {
+      in.casters = casters;
+      const Cascades cascades = fit_cascades(in);
+      EXPECT_EQ(LightProjection(cascades).fault(), "") << distance;
+      for (const Cascade& cascade : cascades.items) {
+        const glm::dvec3 p = clip(cascade, point);
+        EXPECT_LT(std::max(std::abs(p.x), std::abs(p.y)), 0.99) << distance;
+        EXPECT_GT(p.z, 0) << distance;
+        EXPECT_LT(p.z, 1) << distance;
+      }
+    }
+  }
 }
 
 TEST(Cascades, TheSunAtTheZenithHasAnAxis) {
