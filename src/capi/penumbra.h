@@ -138,8 +138,9 @@ PENUMBRA_API penumbra_result penumbra_settings_clone(const penumbra_settings* se
 PENUMBRA_API void penumbra_settings_destroy(penumbra_settings* settings);
 
 /** Chooses a technique by its name, or a preset of penumbra_technique_info() with all values that it sets. What the
- * preset that was chosen before had set becomes the default again, unless it was changed since.
- * PENUMBRA_ERROR_REFUSED: unknown name; the message has names that are near. */
+ * preset that was chosen before had set becomes the default again, unless it was changed since; so does what a preset
+ * had set whose values penumbra_settings_read_preset() has read. PENUMBRA_ERROR_REFUSED: unknown name; the message has
+ * names that are near. */
 PENUMBRA_API penumbra_result penumbra_settings_select(penumbra_settings* settings, const char* technique);
 
 /** Sets a parameter, such as "sun.angle" (degrees), to a value as text, as the option --set of the program takes it: a

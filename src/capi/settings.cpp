@@ -6,6 +6,7 @@
 #include "../core/error.h"
 #include "../core/preset.h"
 #include "../shadow/registry.h"
+#include "../shadow/selection.h"
 #include "call.h"
 
 namespace penumbra::capi {
@@ -29,17 +30,12 @@ ParamValue value_of(const Param& param, double number) {
   return static_cast<int>(number > most ? most : number < -most ? -most : number);
 }
 
-// The parameters with defaults for what the last preset set, but for values that were changed since.
-ParamSet without_preset(const penumbra_settings& settings) {
-  ParamSet params = settings.params;
-  if (settings.preset.empty()) return params;
-  ParamSet chosen = default_params();
-  shadow::built_in_registry().select(chosen, settings.preset);
-  for (const Param& row : chosen.rows()) {
-    if (chosen.value(row.name) != row.default_value && params.value(row.name) == chosen.value(row.name))
-      params.reset(row.name);
-  }
-  return params;
+// The preset that a text has chosen by this name. A text that was written names the technique and lists what the preset
+// sets.
+std::string preset_of(const ParamSet& params, const std::string& chosen) {
+  if (chosen != params.get_word("technique")) return chosen;
+  static const shadow::PresetValues presets(shadow::built_in_registry(), default_params());
+  return presets.selection_of(params).name;
 }
 
 // What presets of the program say of its own scene and pictures is nothing to the library.
@@ -78,8 +74,10 @@ void penumbra_settings_destroy(penumbra_settings* settings) { delete settings; }
 
 penumbra_result penumbra_settings_select(penumbra_settings* settings, const char* technique) {
   return run("penumbra_settings_select", [&] {
-    penumbra::ParamSet changed = without_preset(required(settings, "settings"));
-    penumbra::shadow::built_in_registry().select(changed, &required(technique, "technique"));
+    const penumbra::shadow::Registry& registry = penumbra::shadow::built_in_registry();
+    penumbra::ParamSet changed = required(settings, "settings").params;
+    penumbra::shadow::take_back(changed, registry, settings->preset);
+    registry.select(changed, &required(technique, "technique"));
     settings->params = std::move(changed);
     settings->preset = technique;
   });
@@ -152,7 +150,7 @@ penumbra_result penumbra_settings_read_preset(penumbra_settings* settings, const
           chosen = technique;
         },
         is_of_program);
-    if (!chosen.empty()) settings->preset = chosen;
+    if (!chosen.empty()) settings->preset = preset_of(params, chosen);
   });
 }
 

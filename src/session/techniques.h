@@ -5,6 +5,7 @@
 #include "cli/options.h"
 #include "session/cache_options.h"
 #include "shadow/registry.h"
+#include "shadow/selection.h"
 #include "truth/technique.h"
 
 namespace penumbra::session {
@@ -12,24 +13,14 @@ namespace penumbra::session {
 // All techniques of the program, for look-ups and lists: the library's and `truth`.
 const shadow::Registry& all_techniques();
 
-// What the parameters select.
-struct Selection {
-  // The preset that they are nearest to, if more than half of the values that it changes are theirs; else the
-  // technique.
-  std::string name;
-  // Of a preset: other parameters of its groups, such as all that begin with "filter.", differ from it.
-  bool modified = false;
-};
-Selection selection_of(const ParamSet& params);
+// What the parameters select of these.
+shadow::Selection selection_of(const ParamSet& params);
 
 // Its name, such as "thesis" or "thesis (modified)".
 std::string technique_label(const ParamSet& params);
 
 // These parameters as they were right after choosing the selection, every other one with its default.
 ParamSet unmodified(const ParamSet& params);
-
-// The part of a parameter's name before the dot, or "".
-std::string group_of(const std::string& param);
 
 // What commands draw with where the user names no technique.
 constexpr const char* usual_technique = "slices_denoised";

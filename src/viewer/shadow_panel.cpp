@@ -5,6 +5,7 @@
 
 #include "core/names.h"
 #include "session/techniques.h"
+#include "shadow/selection.h"
 #include "viewer/fields.h"
 #include "viewer/panels.h"
 
@@ -51,14 +52,14 @@ void choose_technique(const Panel& panel, ParamSet& params) {
 // Whether a value of the group differs from what the technique or preset sets, or else from its default.
 bool is_changed(const ParamSet& params, const ParamSet& base, const std::string& group) {
   return std::ranges::any_of(params.rows(), [&](const Param& param) {
-    return session::group_of(param.name) == group && params.value(param.name) != base.value(param.name);
+    return shadow::group_of(param.name) == group && params.value(param.name) != base.value(param.name);
   });
 }
 
 // Returns whether there is a row to show. `base`: session::unmodified().
 bool group(const Panel& panel, ParamSet& params, const ParamSet& base, const std::string& name, std::string& fault) {
   const auto shown = [&](const Param& param) {
-    return session::group_of(param.name) == name && param.name != "technique" && found(param, panel.state.search);
+    return shadow::group_of(param.name) == name && param.name != "technique" && found(param, panel.state.search);
   };
   const auto rows = params.rows();
   if (std::none_of(rows.begin(), rows.end(), shown)) return false;
@@ -88,7 +89,7 @@ bool group(const Panel& panel, ParamSet& params, const ParamSet& base, const std
 std::vector<std::string> groups_of(const ParamSet& params) {
   std::vector<std::string> names;
   for (const Param& param : params.rows()) {
-    const std::string name = session::group_of(param.name);
+    const std::string name = shadow::group_of(param.name);
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   // The technique's own group comes first.

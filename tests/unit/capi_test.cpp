@@ -190,6 +190,20 @@ std::string preset_of(const penumbra_settings* settings) {
   return text.substr(0, length - 1);
 }
 
+// It names the technique, and what the preset sets beside it.
+TEST(CInterface, AChoiceLeavesNothingOfAPresetThatWasWrittenBefore) {
+  const Settings fresh;
+  ASSERT_EQ(penumbra_settings_select(fresh.held, "hard"), PENUMBRA_OK);
+  for (const std::string& name : shadow::built_in_registry().names()) {
+    const Settings chosen, settings;
+    ASSERT_EQ(penumbra_settings_select(chosen.held, name.c_str()), PENUMBRA_OK);
+    const std::string text = preset_of(chosen.held);
+    ASSERT_EQ(penumbra_settings_read_preset(settings.held, "mine.toml", text.data(), text.size()), PENUMBRA_OK);
+    ASSERT_EQ(penumbra_settings_select(settings.held, "hard"), PENUMBRA_OK);
+    EXPECT_EQ(preset_of(settings.held), preset_of(fresh.held)) << name;
+  }
+}
+
 TEST(CInterface, AChoiceLeavesNothingOfThePresetBefore) {
   const std::vector<std::string> names = shadow::built_in_registry().names();
   for (const std::string& second : names) {
