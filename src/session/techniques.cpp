@@ -31,8 +31,13 @@ void choose_technique(ParamSet& params, const shadow::Registry& registry, const 
   registry.select(params, name);
 }
 
+bool keeps_history(const ParamSet& params) {
+  return params.get_bool("history.reuse") && params.get_word("denoiser") != "none" &&
+         all_techniques().find(params.get_word("technique")).denoisable;
+}
+
 std::string earlier_frames_matter(const ParamSet& params) {
-  if (params.get_bool("history.reuse") && params.get_word("denoiser") != "none") return "history.reuse";
+  if (keeps_history(params)) return "history.reuse";
   // Points follow the number of frames since the first one.
   for (const char* sequence : {"sampling.blocker_sequence", "sampling.filter_sequence"}) {
     if (params.get_word(sequence) != "still") return sequence;

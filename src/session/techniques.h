@@ -29,6 +29,9 @@ constexpr const char* usual_technique = "slices_denoised";
 // changed since, so that the filters of one preset do not stay with the next.
 void choose_technique(ParamSet& params, const shadow::Registry& registry, const std::string& name);
 
+// Whether shadows are blended with those of the frames before.
+bool keeps_history(const ParamSet& params);
+
 // What makes each frame depend on those before it, as the parameter that causes it ("history.reuse"); empty: nothing
 // does, so that a sequence can be drawn in parts.
 std::string earlier_frames_matter(const ParamSet& params);

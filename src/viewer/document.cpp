@@ -61,8 +61,7 @@ void Document::step(int frames) { frame = std::max(frame + frames, 0) % (last_fr
 
 int warmup_of(const Document& document) {
   constexpr int settled = 31;
-  const bool remembers = document.params.get_bool("history.reuse") && document.params.get_word("technique") != "truth";
-  return remembers ? settled : 0;
+  return session::keeps_history(document.params) ? settled : 0;
 }
 
 bool changes_once_drawn(const Document& document) {

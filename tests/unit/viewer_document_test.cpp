@@ -289,7 +289,13 @@ TEST_F(ViewerDocument, OnlyTechniquesThatRememberAreWarmedUp) {
   document.params.set("history.reuse", false);
   EXPECT_EQ(viewer::warmup_of(document), 0);
   document.params.set("history.reuse", true);
-  document.params.set_text("technique", "truth");
+  for (const char* not_denoised : {"truth", "shadow_volume"}) {
+    document.params.set_text("technique", not_denoised);
+    EXPECT_EQ(viewer::warmup_of(document), 0) << not_denoised;
+  }
+  document.params.set_text("technique", "pcss");
+  EXPECT_GT(viewer::warmup_of(document), 0);
+  document.params.set_text("denoiser", "none");
   EXPECT_EQ(viewer::warmup_of(document), 0);
 }
 
