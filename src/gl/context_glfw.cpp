@@ -30,10 +30,10 @@ struct Glfw {
     library.require(swap_interval, "glfwSwapInterval");
   }
 
-  [[noreturn]] void fail_with_cause() const {
-    const char* cause = nullptr;
-    get_error(&cause);
-    fail("window: {}", cause == nullptr ? "GLFW gives no cause" : cause);
+  std::string cause() const {
+    const char* text = nullptr;
+    get_error(&text);
+    return text == nullptr ? "GLFW gives no cause" : text;
   }
 };
 
@@ -48,7 +48,7 @@ class WindowContext final : public ContextBase {
  public:
   explicit WindowContext(const ContextOptions& options) : ContextBase(options.debug), vsync_(options.vsync) {
     // Never terminated: another user of GLFW in the process may rely on it.
-    if (glfw().init() == GLFW_FALSE) glfw().fail_with_cause();
+    if (glfw().init() == GLFW_FALSE) fail("window: {}", glfw().cause());
     glfw().window_hint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfw().window_hint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfw().window_hint(GLFW_OPENGL_PROFILE,
@@ -58,7 +58,7 @@ class WindowContext final : public ContextBase {
     glfw().window_hint(GLFW_DEPTH_BITS, 0);
     glfw().window_hint(GLFW_STENCIL_BITS, 0);
     window_ = glfw().create_window(options.width, options.height, options.title.c_str(), nullptr, nullptr);
-    if (window_ == nullptr) glfw().fail_with_cause();
+    if (window_ == nullptr) fail("window: no window with an OpenGL 4.5 context ({})", glfw().cause());
   }
   ~WindowContext() override {
     release();

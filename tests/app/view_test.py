@@ -232,6 +232,10 @@ class End(WindowTest):
         self.assertIn("penumbra watch", line)
         self.assertIn(":31999", self.refuse("view", STEPS, env={**environment, "DISPLAY": ":31999"}))
 
+    def test_the_displays_opengl_is_too_old(self):
+        line = self.refuse("view", STEPS, env={**self.desktop.environment(), "MESA_GL_VERSION_OVERRIDE": "3.3"})
+        self.assertIn("window: no window with an OpenGL 4.5 context (", line)
+
 
 if __name__ == "__main__":
     main()
