@@ -73,7 +73,7 @@ FrameState Viewer::frame_state(const Document& b, const PictureArea& area, doubl
   if (state_.comparison.on && !b.params.rows().empty() && !status_.both_traced) frame.b = state_of(b_, b);
   if (frame.b) frame.travels = frame.travels && b_.renderer.has_params_of(b);
   if (frame.a.missing() > 0 || !frame.b || frame.b->missing() > 0) status_.difference.reset();
-  status_.b_is_old = frame.b && !frame.b->current;
+  status_.b_is_old = state_.comparison.on && !b.params.rows().empty() && !b_.renderer.shows(b);
   return frame;
 }
 

@@ -56,7 +56,7 @@ struct ViewerStatus {
   std::string command;                          // the command line that draws this picture
   std::optional<double> tracing;                // share of the ray-traced picture that is done
   bool both_traced = false;                     // A and B are both ray traced: then B is not drawn
-  bool b_is_old = false;                        // the shown B is older than A
+  bool b_is_old = false;                        // what is shown of B, if anything, is not its present picture
   std::optional<PictureDifference> difference;  // of A and B, once both are finished
   std::optional<glm::ivec2> probed;             // the picture's pixel under the cursor, or the locked one
   std::optional<glm::ivec2> last_probed;        // the last one, also once the cursor has left the picture

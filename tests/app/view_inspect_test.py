@@ -122,6 +122,7 @@ class Compare(WindowTest):
             viewer.open_tab("Compare", "compare")
             viewer.click("compare", lambda: viewer.has("b"), "the choice of B")
             both = viewer.rest()
+            self.assertTrue(viewer.has("label B: truth (not drawn yet)"))
             viewer.choose("b", "none")
             self.assertGreater(viewer.changed(both).differing(both, by=16), 0.001)
 
