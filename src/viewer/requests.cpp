@@ -140,6 +140,8 @@ void Viewer::write_picture(bool sequence) {
   }
   for (std::string& argument : cache_arguments(options_)) arguments.push_back(std::move(argument));
   if (options_.threads) arguments.push_back(fmt::format("--threads={}", *options_.threads));
+  // Without a window the driver may offer only a software rasteriser.
+  if (!device_.info.software) arguments.emplace_back("--backend=window");
   const cli::OutputNames names(state_.picture_file, sequence);
   std::vector<std::filesystem::path> files;
   for (int frame = range.first; frame <= range.last; ++frame) files.push_back(names.picture(frame));
