@@ -80,6 +80,7 @@ void Viewer::open(const std::string& asked) {
   options.reading.skies_chosen = state_.document.options.reading.skies_chosen;
   // The shown scene keeps its camera, sun, ground and time; another one starts with the defaults.
   if (scene == state_.document.options.scene && scene_ != nullptr) return load_again();
+  leaving_ = present_edit();
   loader_.start(scene == state_.document.options.scene ? state_.document.options : options);
 }
 

@@ -112,6 +112,12 @@ bool Viewer::leaves_scene_for(const std::string& scene) {
   return false;
 }
 
+// Whether opening the scene that was asked for would lose what the user has changed since.
+bool Viewer::changed_while_loading() {
+  update_unsaved();
+  return status_.unsaved.view && unsaved({.view = leaving_}, present_edit()).view;
+}
+
 void Viewer::answer_closing(ClosingAnswer answer) {
   if (!state_.closing.scene.empty()) {
     if (answer == ClosingAnswer::save) save_view();

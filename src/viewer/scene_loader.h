@@ -27,6 +27,8 @@ class SceneLoader {
     session::PreparedScene prepared;
   };
   std::optional<Loaded> finished();
+  // The scene that was read is not shown.
+  void forget() { options_ = {}; }
   // The options of the last start(), also if reading failed.
   const cli::SceneOptions& asked() const { return options_; }
   // The file that is being read, or empty.

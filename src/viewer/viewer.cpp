@@ -218,13 +218,20 @@ std::optional<SceneLoader::Loaded> Viewer::finished_scene() {
 }
 
 void Viewer::take_loaded() {
+  // A question is about the scene that is shown.
+  if (state_.closing.wanted || state_.closing.asks) return;
   guarded([&] {
     std::optional<SceneLoader::Loaded> loaded = finished_scene();
     status_.loading = loader_.file().empty() ? "" : std::filesystem::path(loader_.file()).filename().string();
     if (!loaded) return;
-    truth_.stop();
     cli::SceneOptions& options = state_.document.options;
     const bool is_first = scene_ == nullptr, is_other = options.scene != loaded->options.scene;
+    if (is_other && changed_while_loading()) {
+      loader_.forget();
+      state_.closing = {.wanted = true, .scene = loaded->options.scene};
+      return;
+    }
+    truth_.stop();
     auto scene = std::make_unique<LoadedScene>(device_.device, std::move(loaded->prepared));
     scene_ = std::move(scene);
     status_.scene = scene_.get();

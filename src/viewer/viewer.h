@@ -167,6 +167,7 @@ class Viewer {
   void save(bool view, bool preset, bool overwrite);
   bool closes();
   bool leaves_scene_for(const std::string& scene);
+  bool changed_while_loading();
   void answer_closing(ClosingAnswer answer);
   Edit present_edit() const;
   void note_edit();
@@ -194,6 +195,7 @@ class Viewer {
   UiState state_;
   History<Edit> history_;
   SavedState saved_;
+  Edit leaving_;            // the view when another scene was asked for
   std::string view_fault_;  // why the view beside the scene could not be read
   std::string title_;
   bool ended_ = false;

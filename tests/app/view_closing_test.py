@@ -1,11 +1,39 @@
 """penumbra view asks before it closes, or shows another scene, with changes that are not saved, and begins with what was
 saved beside the scene."""
 
+import base64
 import json
+import struct
+import zlib
 
 from desktop import LEFT, RIGHT
 from support import main
 from window import KNIFE_EDGE, STEPS, WindowTest
+
+
+def slow_scene():
+    """A scene that takes a while to read: a triangle with large textures."""
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+    def uri(kind, data):
+        return {"uri": f"data:{kind};base64,{base64.b64encode(data).decode()}"}
+
+    side = 4096
+    png = (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 8, 0, 0, 0, 0)) +
+           chunk(b"IDAT", zlib.compress(bytes((side + 1) * side), 1)) + chunk(b"IEND", b""))
+    corners = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+    textures = ("normalTexture", "emissiveTexture", "occlusionTexture")
+    return {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
+            "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}} |
+                          {name: {"index": 1 + i} for i, name in enumerate(textures)}],
+            "textures": [{"source": i} for i in range(4)], "images": [uri("image/png", png)] * 4,
+            "buffers": [uri("application/octet-stream", corners) | {"byteLength": len(corners)}],
+            "bufferViews": [{"buffer": 0, "byteLength": len(corners)}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0],
+                           "max": [1, 1, 0]},
+                          {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2"}]}
 
 
 class Closing(WindowTest):
@@ -131,6 +159,22 @@ class Closing(WindowTest):
             self.answer(viewer, "Save")
             viewer.wait_for(lambda: any(word.endswith("other.glb") for word in viewer.copied()), "the other scene")
             self.assertIn(sun[0], json.loads(self.saved.read_text())["view"])
+
+    def test_what_is_changed_while_another_scene_is_read_is_asked_for_too(self):
+        other = self.folder / "other.gltf"
+        other.write_text(json.dumps(slow_scene()))
+        with self.view("mine.glb") as viewer:
+            self.desktop.client.drop(viewer.window, *viewer.middle("picture"), other)
+            self.desktop.xdotool("key", "ctrl+1")
+            viewer.wait_for(lambda: viewer.has(self.QUESTION), "the question")
+            self.answer(viewer, "Cancel")
+            viewer.wait_for(lambda: not viewer.has(self.QUESTION), "no question")
+            self.assertIn("mine.glb", viewer.copied())
+            self.desktop.client.drop(viewer.window, *viewer.middle("picture"), other)
+            viewer.wait_for(lambda: viewer.has(self.QUESTION), "the question before it is read")
+            self.answer(viewer, "Discard")
+            viewer.wait_for(lambda: any(word.endswith("other.gltf") for word in viewer.copied()), "the other scene")
+            viewer.rest()
 
     def test_pictures_that_are_being_written_are_not_ended_without_a_question(self):
         close = "closing=Close"
