@@ -242,6 +242,7 @@ void Viewer::take_loaded() {
       options.size = size;
       state_.document.frame = 0;
     }
+    if (is_other || scene_->prepared.scene.animations.empty()) state_.playback = {.speed = state_.playback.speed};
     if (is_first || is_other) take_view();
     use_light_indices(options, scene_->lights);
     if (is_first || is_other) {

@@ -1,7 +1,10 @@
 """penumbra view: files that are dropped on its window."""
 
+import pictures
 from support import main
 from window import KNIFE_EDGE, STEPS, WindowTest
+
+MOVING = pictures.scene("moving")
 
 
 def is_error_color(color):
@@ -22,6 +25,16 @@ class Drop(WindowTest):
             self.assertEqual(viewer.changed(before), wanted)
             self.drop(viewer, STEPS)
             self.assertEqual(viewer.changed(wanted), before)
+
+    def test_another_scene_does_not_play(self):
+        with self.view(MOVING) as viewer:
+            before = viewer.rest()
+            viewer.press("space", lambda: not viewer.has("idle"), "the animation")
+            self.drop(viewer, STEPS)
+            viewer.wait_for(lambda: any(word.endswith("steps.glb") for word in viewer.copied()), "the other scene")
+            still = viewer.rest()
+            self.drop(viewer, MOVING)
+            self.assertEqual(viewer.changed(still), before)
 
     def test_a_name_may_have_any_letters(self):
         path = self.folder / "Stufen & Kanten 100% ü.glb"
