@@ -1,10 +1,12 @@
 #include "viewer/scene_loader.h"
 
 #include <chrono>
+#include <system_error>
 #include <utility>
 
 #include "core/error.h"
 #include "image/read.h"
+#include "io/output_file.h"
 
 namespace penumbra::viewer {
 
@@ -33,9 +35,13 @@ void SceneLoader::start(cli::SceneOptions options) {
   if (loading_.valid()) ending_.push_back(std::move(loading_));
   options_ = std::move(options);
   cancelled_ = {};
-  loading_ = std::async(std::launch::async, [options = options_, cancelled = cancelled_.get_token()] {
-    return session::load_scene(options, decoder_until(cancelled, cli::limits_of(options.reading)));
-  });
+  try {
+    loading_ = std::async(std::launch::async, [options = options_, cancelled = cancelled_.get_token()] {
+      return session::load_scene(options, decoder_until(cancelled, cli::limits_of(options.reading)));
+    });
+  } catch (const std::system_error& error) {
+    fail("{}: no thread to read it: {}", io::quoted(options_.scene), error.code().message());
+  }
 }
 
 std::optional<SceneLoader::Loaded> SceneLoader::finished() {

@@ -19,7 +19,8 @@ class SceneLoader {
   SceneLoader(const SceneLoader&) = delete;
   SceneLoader& operator=(const SceneLoader&) = delete;
 
-  // Starts to read a scene, and cancels the one that is being read. Never waits.
+  // Starts to read a scene, and cancels the one that is being read. Never waits. Throws Error where no thread can be
+  // started.
   void start(cli::SceneOptions options);
   // The scene once it is read, with its options. Throws Error if it can't be read.
   struct Loaded {
