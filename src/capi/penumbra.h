@@ -235,7 +235,7 @@ typedef struct penumbra_light {
   int32_t kind;       /**< PENUMBRA_SUN (default), PENUMBRA_LAMP */
   float to_light[3];  /**< of a sun: direction to it, world, not 0; default 0, 1, 0 */
   float position[3];  /**< of a lamp: its centre, world, m, each within ±1e6 */
-  float radius;       /**< of a lamp, m, at least 0 (hard shadows); default 0.03 */
+  float radius;       /**< of a lamp, m, 0 (hard shadows) to 1e6; default 0.03 */
   float axis[3];      /**< of a lamp: direction in which a spot shines, world; 0, 0, 0 (default): everywhere */
   float cone;         /**< of a spot: half angle of its cone, rad, above 0 and at most pi/2; beyond it: 0 */
   /** Of a lamp, m: the mask is 0 beyond it; 0 (default): unlimited. Casters nearer to the lamp than 1/2000 of it, or

@@ -180,7 +180,8 @@ std::string fault_in(const Lamp& lamp) {
   if (!all_finite(glm::value_ptr(lamp.position), 3)) return "has no position";
   if (glm::any(glm::greaterThan(glm::abs(lamp.position), glm::vec3(farthest_lamp))))
     return "is too far from the origin";
-  if (!(lamp.radius >= 0 && lamp.radius <= farthest_lamp)) return "has no radius";
+  if (!(lamp.radius >= 0 && lamp.radius <= farthest_lamp))
+    return fmt::format("has a radius of {} m, not 0 to 1e6", lamp.radius);
   if (!(lamp.range >= 0)) return "has a range that is not 0 or more";
   const float length = glm::length(lamp.axis);
   if (!std::isfinite(length) || (length > 0 && std::abs(length - 1) > 1e-2f))

@@ -37,7 +37,7 @@ inline constexpr float farthest_lamp = 1e6f;
 // falls off, is left to the caller.
 struct Lamp {
   glm::vec3 position{0};  // of its centre, world, metres
-  float radius = 0.03f;   // of the sphere, metres; 0: hard shadows
+  float radius = 0.03f;   // of the sphere, metres, at most farthest_lamp; 0: hard shadows
   glm::vec3 axis{0};      // in which a spot shines, unit, world; 0: in all directions
   float cone = 0;         // half angle of a spot's cone, radians, above 0 and at most π/2; beyond it the mask is 0
   float range = 0;        // metres: beyond it the mask is 0; 0: unlimited

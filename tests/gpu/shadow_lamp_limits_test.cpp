@@ -138,8 +138,9 @@ TEST_F(LampLimits, BadLampsAndTechniquesForSunsAreRefused) {
   const float nan = std::nanf("");
   EXPECT_EQ(fault({.position = {nan, 0, 0}}), "soft shadows: light 0 has no position");
   EXPECT_EQ(fault({.position = {1e7f, 0, 0}}), "soft shadows: light 0 is too far from the origin");
-  EXPECT_EQ(fault({.radius = -1}), "soft shadows: light 0 has no radius");
-  EXPECT_EQ(fault({.radius = nan}), "soft shadows: light 0 has no radius");
+  EXPECT_EQ(fault({.radius = -1}), "soft shadows: light 0 has a radius of -1 m, not 0 to 1e6");
+  EXPECT_EQ(fault({.radius = 1e7f}), "soft shadows: light 0 has a radius of 10000000 m, not 0 to 1e6");
+  EXPECT_EQ(fault({.radius = nan}), "soft shadows: light 0 has a radius of nan m, not 0 to 1e6");
   EXPECT_EQ(fault({.range = nan}), "soft shadows: light 0 has a range that is not 0 or more");
   EXPECT_EQ(fault({.axis = {0, 2, 0}, .cone = 0.5f}), "soft shadows: light 0 has an axis that is not of length 1");
   EXPECT_EQ(fault({.axis = {0, 1, 0}}), "soft shadows: light 0 has a cone that is not between 0 and π/2");
