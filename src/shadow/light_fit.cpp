@@ -82,8 +82,11 @@ bool moves_maps(const LightWork& work) {
 namespace {
 
 void check_fits(const LightWork& work, const LightProjection& projection) {
-  if (const std::string fault = projection.fault(); !fault.empty())
-    fail("soft shadows: no maps of light {} fit the view: {}", work.light.id, fault);
+  const std::string fault = projection.fault();
+  if (fault.empty()) return;
+  const bool fitted_to_bounds = !work.light.maps && !work.frame.shape.lamp;
+  const char* cause = fitted_to_bounds ? "; casters, receivers and camera may be too far from each other" : "";
+  fail("soft shadows: no maps of light {} fit the view: {}{}", work.light.id, fault, cause);
 }
 
 }  // namespace

@@ -71,6 +71,10 @@ TEST_F(ShadowInputs, MatricesAndBoxesAreChecked) {
   expect_refusal("the bounding box of the forward receivers is empty", [](Inputs& in) {
     in.forward_receivers = {{0, 2, 0}, {1, 1, 1}};
   });
+  expect_refusal("casters, receivers and camera may be too far from each other", [](Inputs& in) {
+    in.casters.max = glm::vec3(3e38f);
+    in.exact_bounds = true;
+  });
   EXPECT_NO_THROW(renderer.render(box_on_ground(48), params, [](Inputs& in) {
     in.moved = shadow::Box{glm::vec3(infinite), glm::vec3(-infinite)};
   })) << "none moved";
