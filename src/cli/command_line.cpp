@@ -114,15 +114,17 @@ void refuse_equals_after_short_name(const CLI::App& options, const Arguments& ar
   }
 }
 
-// CLI11 takes "--size" in "-o --size 16x16" as the value of -o. In "--output=--size" it is one.
+// CLI11 takes "--size" in "-o --size 16x16" as the value of -o, and "--" in "-o -- scene.glb". In "--output=--size" it
+// is one.
 void refuse_options_as_values(const CLI::App& options, const Arguments& arguments) {
   for (std::size_t i = 0; i + 1 < arguments.size(); ++i) {
     const std::string& value = arguments[i + 1];
-    if (arguments[i] == "--" || value == "--") return;
+    if (arguments[i] == "--") return;
     if (!arguments[i].starts_with('-') || !value.starts_with("--")) continue;
     const CLI::Option* option = options.get_option_no_throw(arguments[i]);
     if (option == nullptr || option->get_items_expected_max() == 0) continue;
-    if (options.get_option_no_throw(value) != nullptr)
+    if (value == "--") fail_usage("{} lacks its value: '--' ends the options", option->get_name());
+    if (options.get_option_no_throw(value.substr(0, value.find('='))) != nullptr)
       fail_usage("{} lacks its value: '{}' is an option", option->get_name(), value);
   }
 }

@@ -170,6 +170,9 @@ refused(lambda: penumbra.open("none.glb"), penumbra.Error, "none.glb: file not f
 refused(lambda: penumbra.open("scenes/steps.glb", size=(0, 1)), penumbra.UsageError, "--size can't be '0x1'")
 refused(lambda: penumbra.open("scenes/steps.glb", siez=(1, 1)), penumbra.UsageError, "'--size'")
 refused(lambda: penumbra.open("scenes/steps.glb", eye=(1, 2, 3)), penumbra.UsageError, "--eye and --target")
+refused(lambda: penumbra.open("scenes/steps.glb", preset=True), penumbra.UsageError, "--preset lacks its value")
+refused(lambda: penumbra.open("scenes/steps.glb", preset=True, size=(1, 1)), penumbra.UsageError,
+        "--preset lacks its value")
 refused(lambda: scene.select("pccs"), penumbra.Error, "did you mean 'pcss'")
 refused(lambda: scene.__setitem__("sun.angle", 99), penumbra.UsageError, "0 to 20")
 refused(lambda: scene["sun.angl"], penumbra.UsageError, "'sun.angle'")

@@ -244,6 +244,10 @@ class Usage(TestCase):
         error = self.refuse("render", POSTS, "-o", "--size", "16x16", code=2, cwd=self.folder)
         self.assertEqual(error, "error: --output lacks its value: '--size' is an option")
         self.assertNotIn("lacks its value", self.refuse("render", POSTS, "-o", "x.png", "--camera=--size", cwd=self.folder))
+        error = self.wrong("render", POSTS, "-o", "--size=16x16")
+        self.assertEqual(error, "error: --output lacks its value: '--size=16x16' is an option")
+        error = self.wrong("render", "-o", "x.png", "--preset", "--", POSTS)
+        self.assertEqual(error, "error: --preset lacks its value: '--' ends the options")
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_a_short_option_takes_no_equals_sign(self):
