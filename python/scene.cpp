@@ -54,6 +54,11 @@ py::array flipped(const std::vector<float>& rows, int height, int width) {
 
 constexpr const char* display = "display";
 
+void check_frame(int frame) {
+  constexpr int last = 999'999;  // as of --frames
+  if (frame < 0 || frame > last) cli::fail_usage("frame can't be {}, only 0 to {}", frame, last);
+}
+
 // A wrong name or value is a usage error.
 template <class Call>
 void as_usage(const Call& call) {
@@ -202,6 +207,7 @@ py::array Scene::render(const std::string& picture, int frame, int light) {
 }
 
 py::dict Scene::render(const std::vector<std::string>& pictures, int frame, int light) {
+  check_frame(frame);
   check_light(light);
   int samples = 1;
   for (const std::string& picture : pictures) {
@@ -216,6 +222,7 @@ py::dict Scene::render(const std::vector<std::string>& pictures, int frame, int 
 }
 
 py::dict Scene::truth(std::optional<int> samples, std::optional<double> error, int frame, int light) {
+  check_frame(frame);
   check_light(light);
   ParamSet params = params_;
   session::choose_technique(params, session::all_techniques(), "truth");

@@ -174,6 +174,9 @@ refused(lambda: penumbra.open("scenes/steps.glb", preset=True), penumbra.UsageEr
 refused(lambda: penumbra.open("scenes/steps.glb", preset=True, size=(1, 1)), penumbra.UsageError,
         "--preset lacks its value")
 refused(lambda: scene.select("pccs"), penumbra.Error, "did you mean 'pcss'")
+for frame in (-5, 10**6):
+    refused(lambda: scene.render(frame=frame), penumbra.UsageError, f"frame can't be {frame}, only 0 to 999999")
+    refused(lambda: scene.truth(frame=frame), penumbra.UsageError, f"frame can't be {frame}, only 0 to 999999")
 refused(lambda: scene.__setitem__("sun.angle", 99), penumbra.UsageError, "0 to 20")
 refused(lambda: scene["sun.angl"], penumbra.UsageError, "'sun.angle'")
 refused(lambda: scene.select("pcs"), penumbra.UsageError, "'pcss'")
