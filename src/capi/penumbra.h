@@ -248,9 +248,10 @@ typedef struct penumbra_light {
    * mask, rounded to the nearest value of the format; 0 (default): none. GL_TEXTURE_2D or GL_TEXTURE_2D_ARRAY,
    * immutable or not, R8, RG8, RGBA8, R16F, RG16F or RGBA16F. All else in it stays as it is: other channels, layers and
    * levels, and texels outside of penumbra_frame.viewport. Lights may share a texture, but not a channel of the same
-   * layer and level. penumbra_render() refuses what does not suit (PENUMBRA_ERROR_REFUSED); it looks at a texture
-   * that was no output in the view's last three frames, so one that is defined anew needs another name or
-   * penumbra_forget_view(). For penumbra_warm_up() any other value than 0 says that the light will have one. */
+   * layer and level, nor one that depth, normals, motion or maps are read from. penumbra_render() refuses what does
+   * not suit (PENUMBRA_ERROR_REFUSED); it looks at a texture that was no output in the view's last three frames, so one
+   * that is defined anew needs another name or penumbra_forget_view(). For penumbra_warm_up() any other value than 0
+   * says that the light will have one. */
   uint32_t output_texture;
   int32_t output_level;   /**< its level, which is as large as penumbra_frame.depth; default 0 */
   int32_t output_layer;   /**< its layer, if it is an array; else and by default 0 */

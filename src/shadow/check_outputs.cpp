@@ -82,6 +82,25 @@ gl::TextureDesc output_desc(const OutputTexture& output, const TextureView& dept
   return desc;
 }
 
+// Refuses what the frame reads: channels of the inputs' own textures, the others of which may be outputs.
+void check_not_read(const Inputs& inputs, const Light& light) {
+  const OutputTexture& output = *light.output;
+  const auto refuse = [&](const std::string& use) {
+    fail("soft shadows: the output of light {}: channel {} of texture {} has {}", light.id, output.channel, output.id,
+         use);
+  };
+  const auto is_read = [&](const TextureView& view, int channels) {
+    return view.id != 0 && output.id == view.id && output.level == 0 && output.layer == view.layer &&
+           output.channel < channels;
+  };
+  if (is_read(inputs.depth, 1)) refuse("the depths");
+  if (is_read(inputs.normals, inputs.conventions.octahedral_normals ? 2 : 3)) refuse("the normals");
+  if (is_read(inputs.motion, 2)) refuse("the motion vectors");
+  for (const Light& other : inputs.lights) {
+    if (other.maps && other.maps->depth.id == output.id) refuse(fmt::format("the maps of light {}", other.id));
+  }
+}
+
 }  // namespace
 
 void check_outputs(const Inputs& inputs, TextureChecks& checks) {
@@ -93,6 +112,7 @@ void check_outputs(const Inputs& inputs, TextureChecks& checks) {
         fail("soft shadows: lights {} and {} have the same output", light.id, other.id);
       }
     }
+    check_not_read(inputs, light);
     if (checks.takes_known_output(*light.output, size)) continue;
     checks.add_output(*light.output, size, output_desc(*light.output, inputs.depth, light.id));
   }

@@ -222,8 +222,8 @@ struct Inputs {
 // Throws Error, in one line that names the input and the fault, for: textures that don't exist, have the wrong size or
 // a format that does not suit their use; matrices that are not finite or not invertible, a view with a scale or for a
 // camera that looks along +z; boxes that are empty or not finite (`moved` and `forward_receivers` may be empty); lights
-// without direction, without maps, or with the same id as another; outputs that two lights share, or whose level,
-// layer, channel or format does not exist or suit.
+// without direction, without maps, or with the same id as another; outputs that two lights share, that are read as
+// another input, or whose level, layer, channel or format does not exist or suit.
 void check(const Inputs& inputs);
 
 // Inputs::viewport, or the whole depth texture if that has no size.

@@ -220,6 +220,23 @@ TEST_F(ShadowOutput, TexturesWhoseLevelsAreMadeOneByOneAreTakenIfTheyCanBeDrawnT
   expect_refusal("level 1 of texture", {OutputTexture{.id = one_level.id, .level = 1}});
 }
 
+TEST_F(ShadowOutput, ChannelsThatAreReadAreRefused) {
+  const Own normals(flat(GL_RGBA16F)), motion(flat(GL_RG16F));
+  const std::vector<float> encoded(2 * side * side, 0.5f);
+  gl::glTextureSubImage2D(normals.id(), 0, 0, 0, side, side, GL_RG, GL_FLOAT, encoded.data());
+  const auto with_both = [&](shadow::Inputs& in) {
+    in.normals = {.id = normals.id(), .width = side, .height = side};
+    in.motion = {.id = motion.id(), .width = side, .height = side};
+  };
+  const auto refusal = [&](const OutputTexture& output) {
+    return message_of([&] { render({std::nullopt, output}, with_both); });
+  };
+  EXPECT_EQ(refusal(normals.channel(1)), "soft shadows: the output of light 1: channel 1 of texture " +
+                                             std::to_string(normals.id()) + " has the normals");
+  EXPECT_NE(refusal(motion.channel(0)).find("has the motion vectors"), std::string::npos);
+  EXPECT_NO_THROW(render({normals.channel(3)}, with_both)) << "normals have two channels";
+}
+
 TEST_F(ShadowOutput, WhatDoesNotSuitIsRefusedInOneLine) {
   const Own r8(flat(GL_R8)), small(flat(GL_R8, side - 1)), srgb(flat(GL_SRGB8_ALPHA8)), wide(flat(GL_RGBA16));
   const Own array({.target = GL_TEXTURE_2D_ARRAY, .format = GL_RG8, .width = side, .height = side, .layers = 2});
