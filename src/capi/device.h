@@ -23,7 +23,7 @@ struct DeviceObjects {
 // shader.
 struct CasterProgram {
   std::string geometry, fragment;
-  std::uint64_t id = 0;
+  std::uint64_t id = 0;  // from 1; the same for the same texts
 };
 
 }  // namespace penumbra::capi

@@ -1,5 +1,6 @@
 #include "frame.h"
 
+#include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "../core/error.h"
@@ -98,8 +99,13 @@ const CasterProgram& texts_of(const gl::ProgramDesc& desc, penumbra_device& devi
     if (file.empty()) return std::string();
     return gl::load_shader_source(device.objects->device.shaders.files(), file, desc.defines).text;
   };
-  CasterProgram program{
-      .geometry = text(desc.geometry), .fragment = text(desc.fragment), .id = device.caster_programs.size() + 1};
+  CasterProgram program{.geometry = text(desc.geometry), .fragment = text(desc.fragment)};
+  std::uint64_t last_id = 0;
+  for (const auto& [other_desc, other] : device.caster_programs) {
+    if (other.geometry == program.geometry && other.fragment == program.fragment) program.id = other.id;
+    last_id = std::max(last_id, other.id);
+  }
+  if (program.id == 0) program.id = last_id + 1;
   return device.caster_programs.emplace(desc, std::move(program)).first->second;
 }
 

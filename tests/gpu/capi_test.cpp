@@ -5,6 +5,7 @@
 #include <array>
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
+#include <map>
 #include <set>
 
 #include "capi/device.h"
@@ -247,6 +248,28 @@ TEST_F(CapiTest, SeveralLightsWithOverridesAndOtherConventions) {
     inputs.view.jitter = {0.01f, -0.005f};
     inputs.mask_details = false;
   });
+}
+
+TEST_F(CapiTest, ProgramsOfTheSameTextsHaveTheSameId) {
+  const TriangleScene scene = box_on_ground(48);
+  const Geometry geometry(scene);
+  const penumbra_frame frame = frame_of(scene, geometry);
+  ASSERT_EQ(penumbra_settings_select(c_->settings, "shadow_volume"), PENUMBRA_OK);
+  const auto text = [](const char* given) { return std::string(given == nullptr ? "" : given); };
+  std::map<std::string, std::uint64_t> ids;
+  std::set<std::uint64_t> known;
+  for (const char* shape : {"disc", "square"}) {
+    ASSERT_EQ(penumbra_settings_set(c_->settings, "sun.shape", shape), PENUMBRA_OK);
+    c_->render(frame);
+    for (const penumbra_caster_pass& pass : c_->drawn) {
+      if (pass.kind != PENUMBRA_PASS_GEOMETRY) continue;
+      const std::string texts = text(pass.geometry_shader) + "\f" + text(pass.fragment_shader);
+      EXPECT_EQ(ids.emplace(texts, pass.program_id).first->second, pass.program_id) << shape;
+      known.insert(pass.program_id);
+    }
+  }
+  EXPECT_GT(ids.size(), 0u);
+  EXPECT_EQ(known.size(), ids.size());
 }
 
 TEST_F(CapiTest, MapsAreDrawnAgainOnlyWhereSomethingMayHaveMoved) {
