@@ -74,7 +74,6 @@ class DeviceCall {
   DeviceCall(penumbra_device& device, const OneCall& one);  // within that scope
 
   shadow::SoftShadows& shadows() const { return device_.objects->shadows; }
-  gl::Device& gl() const { return device_.objects->device; }
 
  private:
   void begin();
