@@ -547,9 +547,9 @@ PENUMBRA_API penumbra_result penumbra_unbind_forward(penumbra_device* device);
  * clip control, point and line size; and unbound: the program, the vertex array, both framebuffers, textures and
  * samplers of units 0 to 15, images of units 0 to 7, buffers of indirect draws and dispatches. Changed and not reset:
  * all viewports, the scissor box of viewport 0, blend function and equation, uniform buffers 0 to 2, storage buffer 7,
- * and the generic bindings of both. All else is as before, but for what penumbra_frame.draw changes; after an error,
- * any of the above may have changed. examples/c_minimal/state_guard.c saves and restores what engines usually expect to
- * be as it was.
+ * and the generic bindings of both. All else is as before, but for what penumbra_frame.draw changes. The same holds
+ * after an error, but for PENUMBRA_ERROR_CONTEXT, after which any of the above may have changed.
+ * examples/c_minimal/state_guard.c saves and restores what engines usually expect to be as it was.
  *
  * Conditional rendering and transform feedback of the engine's must not be active (paused feedback may be), nor may a
  * display list be recorded. In a view's first frame each of these is PENUMBRA_ERROR_CONTEXT. Later frames look only for

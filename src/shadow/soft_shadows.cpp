@@ -71,6 +71,19 @@ class Rendering {
   bool& rendering_;
 };
 
+// Runs what draws. An error leaves OpenGL's state as a frame does, unless the context can't be drawn with.
+template <class Draw>
+auto with_initial_state_after_errors(const Draw& draw) {
+  try {
+    return draw();
+  } catch (const gl::ContextError&) {
+    throw;
+  } catch (...) {
+    gl::leave_initial_state();
+    throw;
+  }
+}
+
 // Deletes the targets and buffers of that prefix at the end of the scope.
 class DroppedAtEnd {
  public:
@@ -149,7 +162,7 @@ Mask SoftShadows::render_view(const Inputs& inputs, const ParamSet& params) {
     view.prefix = view_prefix(inputs.view.id);
     view.clip_space_of_caller = clip_space;
   }
-  Mask mask = draw(inputs, params, view);
+  Mask mask = with_initial_state_after_errors([&] { return draw(inputs, params, view); });
   if (std::exchange(view.began, true) || !view.clip_space_of_caller) return mask;
   const std::string warning =
       clip_control_warning(inputs.view.projection, inputs.conventions, *view.clip_space_of_caller);
@@ -200,14 +213,16 @@ void SoftShadows::warm_up(const FrameKind& kind, const ParamSet& params) {
   ViewState view;
   view.prefix = fmt::format("shadow {}/warm up/", state_->number);
   const DroppedAtEnd targets(device_, view.prefix);
-  for (const gl::ProgramDesc& program : copy_programs()) device_.shaders.get(program);
-  const std::vector<Light> lights = warm_up_lights(device_, view.prefix, kind);
-  FrameKind small = kind;
-  small.lights = lights;
-  // The second has a history, and casters that may have moved.
-  for (int i = 0; i < 2; ++i) draw(warm_up_inputs(device_, view.prefix, small), params, view);
-  draw(other_warm_up_inputs(device_, view.prefix, small), params, view);
-  make_tables(view);
+  with_initial_state_after_errors([&] {
+    for (const gl::ProgramDesc& program : copy_programs()) device_.shaders.get(program);
+    const std::vector<Light> lights = warm_up_lights(device_, view.prefix, kind);
+    FrameKind small = kind;
+    small.lights = lights;
+    // The second has a history, and casters that may have moved.
+    for (int i = 0; i < 2; ++i) draw(warm_up_inputs(device_, view.prefix, small), params, view);
+    draw(other_warm_up_inputs(device_, view.prefix, small), params, view);
+    make_tables(view);
+  });
 }
 
 void SoftShadows::forget_view(int id) {

@@ -45,8 +45,8 @@ struct FrameKind {
 // It changes without resetting: all viewports, the scissor box of viewport 0, the blend function and equation, uniform
 // buffer bindings 0 to 2, storage buffer binding 7, and with them the generic bindings GL_UNIFORM_BUFFER and
 // GL_SHADER_STORAGE_BUFFER. All other state is unchanged, including pixel-store state and the buffers bound for pixel
-// transfers, except for what the caster callback and the caller's own techniques change. After an Error any of the
-// state named here may have changed.
+// transfers, except for what the caster callback and the caller's own techniques change. The same holds after an Error,
+// except for gl::ContextError, after which any of the state named here may have changed.
 //
 // In a context of the compatibility profile, legacy state that would change what shaders write (alpha test, stipple,
 // clamped fragment colours, pixel transfer) has its initial values during render() and is as before afterwards.

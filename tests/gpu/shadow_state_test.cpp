@@ -321,6 +321,34 @@ TEST_F(ShadowState, ATextureOfTheCallersIsWrittenInAnyState) {
   }
 }
 
+TEST_F(ShadowState, AFrameThatFailsLeavesWhatIsDocumented) {
+  TriangleRenderer renderer;
+  for (const std::string name : {"pcss", "pcss_compute", "shadow_volume", "thesis"}) {
+    SCOPED_TRACE(name);
+    ParamSet params = small_params(renderer);
+    renderer.shadows().registry().select(params, name);
+    std::optional<Disturbed> state;
+    const std::string message = message_of([&] {
+      renderer.render(scene, params, [&](shadow::Inputs& inputs) {
+        state.emplace();
+        inputs.draw = [](const shadow::CasterPass&, gl::Pass&) { fail("the caller's fault"); };
+      });
+    });
+    EXPECT_EQ(message, "the caller's fault");
+    expect_documented_state();
+    state->expect_kept();
+  }
+}
+
+TEST_F(ShadowState, AWarmUpThatFailsLeavesWhatIsDocumented) {
+  TriangleRenderer renderer;
+  const shadow::Light light{.overrides = {"technique=unknown"}, .maps = {}};
+  const Disturbed state;
+  message_of([&] { renderer.shadows().warm_up({.lights = {&light, 1}}, renderer.params()); });
+  expect_documented_state();
+  state.expect_kept();
+}
+
 // Every switch and every choice among the library's parameters; together they select each filter, noise, pattern,
 // movement map and driver.
 TEST_F(ShadowState, SoDoesEveryChoiceOfTheLibrary) {
