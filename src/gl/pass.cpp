@@ -27,7 +27,9 @@ Pass::Pass(Device& device, const PassDesc& desc)
 }
 
 Pass::ForeignAttachments::~ForeignAttachments() {
-  if (framebuffer == 0) return;
+  if (framebuffer == 0 || points.empty()) return;
+  // Without attachments it would be an incomplete one for what follows, which drivers warn of.
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
   for (const GLenum point : points) glNamedFramebufferTexture(framebuffer, point, 0, 0);
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/log.h"
 #include "gpu/gl_calls.h"
 #include "gpu/triangle_scene.h"
 
@@ -260,6 +261,17 @@ TEST_F(ShadowOutput, WhatDoesNotSuitIsRefusedInOneLine) {
   expect_refusal("is neither a GL_TEXTURE_2D nor a GL_TEXTURE_2D_ARRAY", {OutputTexture{.id = cube}});
   gl::glDeleteTextures(1, &cube);
   EXPECT_NO_THROW(render({r8.channel(0), array.channel(1, 1)}));
+}
+
+// Such as those about a framebuffer that is bound and incomplete.
+TEST_F(ShadowOutput, AFrameMakesTheDriverSendNoMessage) {
+  const Own texture(flat(GL_R8));
+  render({texture.channel(0)});  // checks the texture
+  std::vector<std::string> messages;
+  const LogSink keep = [&](LogLevel, std::string_view line) { messages.emplace_back(line); };
+  const ThreadLogSink sink(keep);
+  render({texture.channel(0)});
+  EXPECT_EQ(messages, std::vector<std::string>());
 }
 
 TEST_F(ShadowOutput, AWarmUpTakesLightsWithOutputs) {
