@@ -116,8 +116,9 @@ penumbra_result penumbra_device_destroy(penumbra_device* device) {
       try {
         penumbra::gl::check_context_is_current("penumbra_device_destroy()");
         check_context(scope.finds_context());
-      } catch (...) {
+      } catch (const std::exception& error) {
         no_context = std::current_exception();
+        penumbra::warn("a device is destroyed, but not what it has made in OpenGL: {}", error.what());
       }
       release(*device, /*context_is_lost=*/no_context != nullptr);
     }

@@ -113,8 +113,8 @@ PENUMBRA_API penumbra_result penumbra_device_desc_init(penumbra_device_desc* des
 PENUMBRA_API penumbra_result penumbra_device_create(const penumbra_device_desc* desc, penumbra_device** device);
 
 /** Deletes the device and all its OpenGL objects. Its context must be current. If it is not, the objects are left
- * to their context, and where that shares objects to its whole share group, and the result is PENUMBRA_ERROR_CONTEXT;
- * the device is gone nevertheless. Null: nothing happens.
+ * to their context, and where that shares objects to its whole share group, and the result is PENUMBRA_ERROR_CONTEXT,
+ * which is also logged as a warning; the device is gone nevertheless. Null: nothing happens.
  * PENUMBRA_ERROR_ARGUMENT: called from within a callback of a device, or while another thread is in a call with this
  * one, which stays then. */
 PENUMBRA_API penumbra_result penumbra_device_destroy(penumbra_device* device);

@@ -187,7 +187,8 @@ struct Frame : penumbra_frame {
   std::function<void(const penumbra_caster_pass&)> casters_;
 };
 
-/// What was made in one OpenGL context, which must be current when it is made, used and destroyed. Movable.
+/// What was made in one OpenGL context, which must be current when it is made, used and destroyed. The destructor can't
+/// throw: without that context it leaves the OpenGL objects as they are, with a warning to the log. Movable.
 class Device {
  public:
   /// Finds an entry point of OpenGL by its name, as eglGetProcAddress() and glfwGetProcAddress() do.

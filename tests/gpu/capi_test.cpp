@@ -573,6 +573,8 @@ TEST(CapiContext, ADeviceThatIsDestroyedInAnotherContextLeavesItsObjects) {
   gl::glCreateTextures(GL_TEXTURE_2D, static_cast<GLsizei>(textures.size()), textures.data());
   gl::glCreateBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
   EXPECT_EQ(penumbra_device_destroy(c.device), PENUMBRA_ERROR_CONTEXT);
+  EXPECT_EQ(c.messages, std::vector<std::string>{"2 a device is destroyed, but not what it has made in OpenGL: the "
+                                                 "device's OpenGL context is not current on this thread"});
   c.device = nullptr;
   for (const GLuint id : textures) EXPECT_EQ(gl::glIsTexture(id), GL_TRUE) << id;
   for (const GLuint id : buffers) EXPECT_EQ(gl::glIsBuffer(id), GL_TRUE) << id;
@@ -584,6 +586,7 @@ TEST(CapiContext, ADeviceThatIsDestroyedWithoutAContextSaysSo) {
   context.reset();
   EXPECT_EQ(penumbra_device_destroy(c.device), PENUMBRA_ERROR_CONTEXT);
   EXPECT_STREQ(penumbra_last_error(), "penumbra_device_destroy(): no OpenGL context is current");
+  EXPECT_EQ(c.messages.size(), 1u);
   c.device = nullptr;
   penumbra_device_desc desc;
   ASSERT_EQ(penumbra_device_desc_init(&desc, sizeof desc), PENUMBRA_OK);
