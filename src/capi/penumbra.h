@@ -445,9 +445,9 @@ typedef struct penumbra_frame {
 
   const penumbra_light* lights; /**< light_count of them; null if there are none */
   size_t light_count;           /**< at most 256 */
-  /** Required unless all lights bring their maps. Without it no movement map can be drawn: if the parameter
-   * movement.map is on, a history is then used only in frames in which nothing moves (moved_is_known is 1 and `moved`
-   * empty). */
+  /** Required unless all lights bring their maps, and always with the technique shadow_volume and for the second layers
+   * of maps.layers=2. Without it no movement map can be drawn: if the parameter movement.map is on, a history is then
+   * used only in frames in which nothing moves (moved_is_known is 1 and `moved` empty). */
   penumbra_draw_casters draw;
   void* draw_user; /**< passed to draw */
 

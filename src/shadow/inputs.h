@@ -212,7 +212,8 @@ struct Inputs {
   // Whether Mask::texture has a penumbra radius, a blocker distance and a layer of the shadow map beside visibility: 8
   // bytes a pixel and light instead of 2. Visibility is the same.
   bool mask_details = false;
-  DrawCasters draw;            // optional when every light brings its maps
+  // Optional when every light brings its maps, unless a technique or recipe draws casters itself.
+  DrawCasters draw;
   const void* user = nullptr;  // passed on to the caller's own techniques; the library never reads it
 
   // Whether geometric normals are made from depth.

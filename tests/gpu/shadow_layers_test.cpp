@@ -150,7 +150,7 @@ TEST_F(ShadowLayers, FinishedMapsWithoutCastersCannotHaveOne) {
     });
     FAIL();
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "recipe 'second_layer' draws casters, and Inputs::draw is empty");
+    EXPECT_STREQ(error.what(), "recipe 'second_layer' draws casters, and there is no caster callback");
   }
 }
 

@@ -285,6 +285,10 @@ TEST_F(ShadowMatrices, AreTakenByTheCInterface) {
     of_c.push_back(c.render(frame));
     penumbra_mask mask{};
     mask.struct_size = sizeof mask;
+    EXPECT_EQ(penumbra_settings_set(c.settings, "technique", "shadow_volume"), PENUMBRA_OK);
+    EXPECT_EQ(penumbra_render(c.device, c.settings, &frame, &mask), PENUMBRA_ERROR_REFUSED);
+    EXPECT_STREQ(penumbra_last_error(), "technique 'shadow_volume' draws casters, and there is no caster callback");
+    EXPECT_EQ(penumbra_settings_set(c.settings, "technique", "pcss"), PENUMBRA_OK);
     std::vector<glm::mat4> backwards = matrices;
     std::swap(backwards[0], backwards[2]);
     light.maps_world_to_clip = glm::value_ptr(backwards[0]);

@@ -239,7 +239,7 @@ TEST_F(ShadowTechnique, CastersThatNobodyDrawsAreAnErrorThatNamesTheTechnique) {
     frame([](shadow::Inputs& inputs) { inputs.draw = {}; });
     FAIL() << "nothing thrown";
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "technique 'cleared' draws casters, and Inputs::draw is empty");
+    EXPECT_STREQ(error.what(), "technique 'cleared' draws casters, and there is no caster callback");
   }
 }
 
