@@ -219,9 +219,9 @@ enum {
 };
 
 /** A texture of the engine's. Filters, wrap and compare modes do not matter; swizzle, base and maximum level and
- * GL_DEPTH_STENCIL_TEXTURE_MODE must have OpenGL's initial values. A view looks at a texture that it was not given in
- * its last three frames: one that is deleted or defined anew and comes back within these needs another name or size, or
- * penumbra_forget_view(). */
+ * GL_DEPTH_STENCIL_TEXTURE_MODE must have OpenGL's initial values: a swizzle of channels that are read, another base
+ * level and another mode are refused. A view looks at a texture that it was not given in its last three frames: one
+ * that is deleted or defined anew and comes back within these needs another name or size, or penumbra_forget_view(). */
 typedef struct penumbra_texture {
   uint32_t id;    /**< OpenGL's name; 0: none */
   int32_t width;  /**< of level 0, texels */

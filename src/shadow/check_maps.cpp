@@ -58,6 +58,7 @@ void check_maps(const Light& given, TextureChecks& checks) {
            atlas ? "GL_TEXTURE_2D, as an atlas is" : "GL_TEXTURE_2D_ARRAY");
     }
     check_size(name, depth);
+    check_parameters(name, depth.id, 1);
     if (!holds_depth(depth.id)) fail("soft shadows: the maps of light {} hold no depth", light);
     const GLint bits = level_parameter(depth.id, GL_TEXTURE_DEPTH_SIZE);
     source.can_compare = bits > 0;

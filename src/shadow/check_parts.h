@@ -26,5 +26,8 @@ void check_given(std::string_view name, const TextureView& view);
 // Refuses what is not a texture.
 GLenum target_of_existing(std::string_view name, const TextureView& view);
 void check_size(std::string_view name, const TextureView& view);
+// Refuses a swizzle of the first `channels`, and other parameters of the texture with which shaders would read others
+// than the texels of level 0.
+void check_parameters(std::string_view name, unsigned texture, int channels);
 
 }  // namespace penumbra::shadow

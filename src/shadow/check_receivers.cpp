@@ -66,8 +66,8 @@ TextureChecks::Source nearest_sample(const TextureView& view, GLenum target) {
   return nearest;
 }
 
-// Checks a texture that is new, of receivers, and says how it is read.
-TextureChecks::Source check_source(std::string_view name, const TextureView& view) {
+// Checks a texture that is new, of receivers, and says how its first `channels` are read.
+TextureChecks::Source check_source(std::string_view name, const TextureView& view, int channels) {
   const GLenum target = target_of_existing(name, view);
   const bool array = target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
   if (!array && target != GL_TEXTURE_2D && target != GL_TEXTURE_2D_MULTISAMPLE) {
@@ -75,6 +75,7 @@ TextureChecks::Source check_source(std::string_view name, const TextureView& vie
          view.id);
   }
   check_size(name, view);
+  check_parameters(name, view.id, channels);
   const GLint layers = array ? level_parameter(view.id, GL_TEXTURE_DEPTH) : 1;
   if (view.layer < 0 || view.layer >= layers) {
     fail("soft shadows: {}: texture {} has no layer {}", name, view.id, view.layer);
@@ -102,7 +103,7 @@ void check_receivers(const ReceiverTexture& texture, const TextureView& depth, T
                                .may_be_unsigned = texture.may_be_unsigned};
   const TextureChecks::Source* found = checks.known_source(key);
   const bool known = found != nullptr;
-  const TextureChecks::Source source = known ? *found : check_source(texture.name, view);
+  const TextureChecks::Source source = known ? *found : check_source(texture.name, view, texture.channels);
   if (view.width != depth.width || view.height != depth.height) {
     fail("soft shadows: {} are {}×{}, depth is {}×{}", texture.texels, view.width, view.height, depth.width,
          depth.height);
@@ -124,7 +125,7 @@ void check_depth(const TextureView& view, TextureChecks& checks) {
   check_given("depth", view);
   const TextureChecks::Key key{.id = view.id, .width = view.width, .height = view.height, .layer = view.layer};
   const TextureChecks::Source* known = checks.known_source(key);
-  TextureChecks::Source source = known != nullptr ? *known : check_source("depth", view);
+  TextureChecks::Source source = known != nullptr ? *known : check_source("depth", view, 1);
   if (known == nullptr) {
     if (!holds_depth(view.id)) fail("soft shadows: depth: texture {} holds no depth", view.id);
     source.rounding = depth_rounding_of(view.id);

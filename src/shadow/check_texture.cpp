@@ -1,6 +1,8 @@
 #include "check_parts.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "../core/error.h"
 #include "../gl/texture.h"
@@ -33,6 +35,27 @@ void check_size(std::string_view name, const TextureView& view) {
   const GLint height = level_parameter(view.id, GL_TEXTURE_HEIGHT);
   if (width != view.width || height != view.height) {
     fail("soft shadows: {}: texture {} is {}×{}, not {}×{}", name, view.id, width, height, view.width, view.height);
+  }
+}
+
+void check_parameters(std::string_view name, unsigned texture, int channels) {
+  struct Initial {
+    GLenum parameter;
+    const char* label;
+    GLint value;
+  };
+  static constexpr std::array initials{
+      Initial{GL_TEXTURE_BASE_LEVEL, "GL_TEXTURE_BASE_LEVEL", 0},
+      Initial{GL_DEPTH_STENCIL_TEXTURE_MODE, "GL_DEPTH_STENCIL_TEXTURE_MODE", GL_DEPTH_COMPONENT},
+      Initial{GL_TEXTURE_SWIZZLE_R, "GL_TEXTURE_SWIZZLE_R", GL_RED},
+      Initial{GL_TEXTURE_SWIZZLE_G, "GL_TEXTURE_SWIZZLE_G", GL_GREEN},
+      Initial{GL_TEXTURE_SWIZZLE_B, "GL_TEXTURE_SWIZZLE_B", GL_BLUE}};
+  constexpr std::size_t of_all_channels = 2;
+  for (const Initial& initial : std::span(initials).first(of_all_channels + static_cast<std::size_t>(channels))) {
+    GLint value = 0;
+    gl::glGetTextureParameteriv(texture, initial.parameter, &value);
+    if (value != initial.value)
+      fail("soft shadows: {}: {} of texture {} is not OpenGL's initial value", name, initial.label, texture);
   }
 }
 

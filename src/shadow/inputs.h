@@ -51,7 +51,8 @@ struct View {
 // A texture that the caller owns. Shadow maps are a GL_TEXTURE_2D_ARRAY or an atlas. Of receivers it is a GL_TEXTURE_2D
 // or a layer of an array, such as that of one eye; or one of both with samples, of which the one nearest to the pixel's
 // centre is read. What is not a GL_TEXTURE_2D is copied in each frame. Its filter, wrap and compare modes do not
-// matter; its swizzle, base and maximum level and GL_DEPTH_STENCIL_TEXTURE_MODE must have OpenGL's initial values.
+// matter; its swizzle, base and maximum level and GL_DEPTH_STENCIL_TEXTURE_MODE must have OpenGL's initial values:
+// a swizzle of channels that are read, another base level and another mode are refused.
 struct TextureView {
   unsigned id = 0;
   int width = 0, height = 0;  // of level 0, texels

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <tuple>
 
 #include "core/log.h"
 #include "gpu/gpu_test.h"
@@ -390,6 +391,40 @@ TEST_F(ShadowInputs, TexturesAreChecked) {
     in.viewport = {9, 0, 40, 40};
   });
   expect_refusal("the viewport of 0×40", [](Inputs& in) { in.viewport = {9, 0, 0, 40}; });
+}
+
+TEST_F(ShadowInputs, ParametersThatChangeWhatShadersReadAreRefused) {
+  using shadow::Inputs;
+  const int size = 48;
+  const auto depth =
+      texture("two levels", {.format = GL_DEPTH_COMPONENT32F, .width = size, .height = size, .levels = 2});
+  const auto maps =
+      texture("maps", {.target = GL_TEXTURE_2D_ARRAY, .format = GL_DEPTH_COMPONENT32F, .width = size, .height = size});
+  for (const auto& [name, parameter, value] :
+       {std::tuple{"GL_TEXTURE_SWIZZLE_R", GL_TEXTURE_SWIZZLE_R, GL_ONE},
+        {"GL_TEXTURE_BASE_LEVEL", GL_TEXTURE_BASE_LEVEL, 1},
+        {"GL_DEPTH_STENCIL_TEXTURE_MODE", GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX}}) {
+    gl::glTextureParameteri(depth.id, static_cast<GLenum>(parameter), value);
+    GLint initial = 0;
+    gl::glGetTextureParameteriv(maps.id, static_cast<GLenum>(parameter), &initial);
+    expect_refusal(fmt::format("depth: {} of texture {} is not OpenGL's initial value", name, depth.id),
+                   [&](Inputs& in) { in.depth = depth; });
+    gl::glTextureParameteri(depth.id, static_cast<GLenum>(parameter), initial);
+  }
+  gl::glTextureParameteri(maps.id, GL_TEXTURE_SWIZZLE_R, GL_ZERO);
+  shadow::Light light;
+  light.maps = shadow::FinishedMaps{maps, shadow::Cascades{.size = size, .items = std::vector<shadow::Cascade>(1)}};
+  expect_refusal("maps of light 0: GL_TEXTURE_SWIZZLE_R", [&](Inputs& in) { in.lights = {&light, 1}; });
+  const auto swizzle_green = [](const shadow::TextureView& view, GLint value) {
+    gl::glTextureParameteri(view.id, GL_TEXTURE_SWIZZLE_G, value);
+  };
+  renderer.shadows().forget_view(0);  // which knows these textures
+  expect_refusal("normals: GL_TEXTURE_SWIZZLE_G", [&](Inputs& in) { swizzle_green(in.normals, GL_ONE); });
+  renderer.shadows().forget_view(0);
+  EXPECT_NO_THROW(renderer.render(box_on_ground(size), params, [&](Inputs& in) {
+    swizzle_green(in.normals, GL_GREEN);
+    swizzle_green(in.depth, GL_RED);
+  })) << "depth is one channel";
 }
 
 TEST_F(ShadowInputs, LightsAreChecked) {
