@@ -69,6 +69,13 @@ void as_usage(const Call& call) {
   }
 }
 
+// All names would make a long line.
+void check_known(const ParamSet& params, const std::string& name) {
+  const bool known = params.contains(name) || params.renamed_from(name) != nullptr;
+  if (!known && near_names(name, params.names()).empty())
+    cli::fail_usage("unknown parameter '{}'; see penumbra.params()", name);
+}
+
 // Null for the display. Throws UsageError for an unknown name.
 const render::Aov* find_picture(const std::string& name) {
   std::vector<std::string> names{display};
@@ -146,9 +153,7 @@ void Scene::select(const std::string& technique) {
 
 py::object Scene::get(const std::string& param) const {
   check_thread();
-  const std::vector<std::string> names = params_.names();
-  if (!params_.contains(param) && near_names(param, names).empty())
-    cli::fail_usage("unknown parameter '{}'; see penumbra.params()", param);
+  check_known(params_, param);
   py::object value;
   as_usage([&] { value = to_python(params_.value(param)); });
   return value;
@@ -156,6 +161,7 @@ py::object Scene::get(const std::string& param) const {
 
 void Scene::set(const std::string& param, const py::object& value) {
   check_thread();
+  check_known(params_, param);
   // A bool is also an int to Python, and a number from NumPy is neither a float nor an int.
   const bool is_bool =
       py::isinstance<py::bool_>(value) || py::isinstance(value, py::module_::import("numpy").attr("bool_"));
@@ -174,7 +180,7 @@ std::size_t Scene::lights() const { return render::shadowed_lights(prepared_.set
 
 void Scene::check_light(int light) const {
   const int count = static_cast<int>(lights());
-  if (light < 0 || light >= count) throw py::index_error(fmt::format("light {} of {} that cast shadows", light, count));
+  if (light < 0 || light >= count) cli::fail_usage("light {} of {} that cast shadows", light, count);
 }
 
 void Scene::draw(const ParamSet& params, int frame, int samples) {
