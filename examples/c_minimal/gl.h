@@ -12,6 +12,7 @@
   X(PFNGLBINDBUFFERRANGEPROC, glBindBufferRange)                 \
   X(PFNGLBINDFRAMEBUFFERPROC, glBindFramebuffer)                 \
   X(PFNGLBINDVERTEXARRAYPROC, glBindVertexArray)                 \
+  X(PFNGLBLENDEQUATIONSEPARATEPROC, glBlendEquationSeparate)     \
   X(PFNGLBLENDFUNCSEPARATEPROC, glBlendFuncSeparate)             \
   X(PFNGLCLEARBUFFERFVPROC, glClearBufferfv)                     \
   X(PFNGLCLIPCONTROLPROC, glClipControl)                         \
@@ -45,6 +46,7 @@
   X(PFNGLISENABLEDPROC, glIsEnabled)                             \
   X(PFNGLLINKPROGRAMPROC, glLinkProgram)                         \
   X(PFNGLNAMEDFRAMEBUFFERTEXTUREPROC, glNamedFramebufferTexture) \
+  X(PFNGLPOINTSIZEPROC, glPointSize)                             \
   X(PFNGLPOLYGONMODEPROC, glPolygonMode)                         \
   X(PFNGLPOLYGONOFFSETPROC, glPolygonOffset)                     \
   X(PFNGLSCISSORPROC, glScissor)                                 \

@@ -64,11 +64,14 @@ void save_state(state_guard* guard) {
   glGetFloatv(GL_DEPTH_RANGE, guard->depth_range);
   glGetFloatv(GL_POLYGON_OFFSET_FACTOR, &guard->polygon_offset[0]);
   glGetFloatv(GL_POLYGON_OFFSET_UNITS, &guard->polygon_offset[1]);
+  glGetFloatv(GL_POINT_SIZE, &guard->point_size);
   for (int i = 0; i < 2; ++i) save_stencil(&guard->stencil[i], stencil_names[i]);
   glGetIntegerv(GL_BLEND_SRC_RGB, &guard->blend[0]);
   glGetIntegerv(GL_BLEND_DST_RGB, &guard->blend[1]);
   glGetIntegerv(GL_BLEND_SRC_ALPHA, &guard->blend[2]);
   glGetIntegerv(GL_BLEND_DST_ALPHA, &guard->blend[3]);
+  glGetIntegerv(GL_BLEND_EQUATION_RGB, &guard->blend_equation[0]);
+  glGetIntegerv(GL_BLEND_EQUATION_ALPHA, &guard->blend_equation[1]);
   glGetIntegerv(GL_VIEWPORT, guard->viewport);
   glGetIntegerv(GL_SCISSOR_BOX, guard->scissor_box);
   glGetIntegerv(GL_CURRENT_PROGRAM, &guard->program);
@@ -100,10 +103,12 @@ void restore_state(const state_guard* guard) {
   glPolygonMode(GL_FRONT_AND_BACK, (GLenum)guard->polygon_mode[0]);
   glDepthRangef(guard->depth_range[0], guard->depth_range[1]);
   glPolygonOffset(guard->polygon_offset[0], guard->polygon_offset[1]);
+  glPointSize(guard->point_size);
   restore_stencil(&guard->stencil[0], GL_FRONT);
   restore_stencil(&guard->stencil[1], GL_BACK);
   glBlendFuncSeparate((GLenum)guard->blend[0], (GLenum)guard->blend[1], (GLenum)guard->blend[2],
                       (GLenum)guard->blend[3]);
+  glBlendEquationSeparate((GLenum)guard->blend_equation[0], (GLenum)guard->blend_equation[1]);
   glViewport(guard->viewport[0], guard->viewport[1], guard->viewport[2], guard->viewport[3]);
   glScissor(guard->scissor_box[0], guard->scissor_box[1], guard->scissor_box[2], guard->scissor_box[3]);
   glUseProgram((GLuint)guard->program);

@@ -47,7 +47,10 @@ State present_state() {
                                              {GL_CLIP_ORIGIN, 1},
                                              {GL_CLIP_DEPTH_MODE, 1},
                                              {GL_BLEND_SRC_RGB, 1},
-                                             {GL_BLEND_DST_ALPHA, 1}};
+                                             {GL_BLEND_DST_ALPHA, 1},
+                                             {GL_BLEND_EQUATION_RGB, 1},
+                                             {GL_BLEND_EQUATION_ALPHA, 1},
+                                             {GL_POINT_SIZE, 1}};
   for (const auto& [name, count] : values) {
     std::array<GLfloat, 4> numbers{};
     glGetFloatv(name, numbers.data());
@@ -89,6 +92,8 @@ void set_state_of_an_engine(GLuint buffer) {
   glStencilOpSeparate(GL_BACK, GL_INVERT, GL_DECR, GL_KEEP);
   glStencilMask(0x3c);
   glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
+  glBlendEquationSeparate(GL_FUNC_REVERSE_SUBTRACT, GL_MIN);
+  glPointSize(5);
 }
 
 void set_state_of_a_frame() {
@@ -108,6 +113,8 @@ void set_state_of_a_frame() {
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
   glStencilMask(~0U);
   glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+  glBlendEquation(GL_FUNC_ADD);
+  glPointSize(1);
 }
 
 class StateGuard : public GpuTest {};
@@ -127,7 +134,7 @@ TEST_F(StateGuard, RestoresWhatAnEngineHadSet) {
   EXPECT_EQ(present_state(), of_engine);
   int differing = 0;
   for (const auto& [name, values] : of_frame) differing += values != of_engine.at(name) ? 1 : 0;
-  EXPECT_GE(differing, 24);
+  EXPECT_GE(differing, 27);
   set_state_of_a_frame();
   glDeleteBuffers(1, &buffer);
 }
