@@ -38,6 +38,12 @@ std::string preset_of(const ParamSet& params, const std::string& chosen) {
   return presets.selection_of(params).name;
 }
 
+void select_technique(ParamSet& params, std::string_view technique) {
+  if (std::ranges::find(techniques_of_program, technique) != techniques_of_program.end())
+    fail("technique '{}' needs the program's scene: the library does not have it", technique);
+  shadow::built_in_registry().select(params, technique);
+}
+
 // What presets of the program say of its own scene and pictures is nothing to the library.
 bool is_of_program(std::string_view param) {
   return std::ranges::any_of(groups_of_program, [&](std::string_view group) {
@@ -74,10 +80,9 @@ void penumbra_settings_destroy(penumbra_settings* settings) { delete settings; }
 
 penumbra_result penumbra_settings_select(penumbra_settings* settings, const char* technique) {
   return run("penumbra_settings_select", [&] {
-    const penumbra::shadow::Registry& registry = penumbra::shadow::built_in_registry();
     penumbra::ParamSet changed = required(settings, "settings").params;
-    penumbra::shadow::take_back(changed, registry, settings->preset);
-    registry.select(changed, &required(technique, "technique"));
+    penumbra::shadow::take_back(changed, penumbra::shadow::built_in_registry(), settings->preset);
+    select_technique(changed, &required(technique, "technique"));
     settings->params = std::move(changed);
     settings->preset = technique;
   });
@@ -146,7 +151,7 @@ penumbra_result penumbra_settings_read_preset(penumbra_settings* settings, const
     penumbra::apply_preset(
         {text, length}, name, params,
         [&](penumbra::ParamSet& set, std::string_view technique) {
-          penumbra::shadow::built_in_registry().select(set, technique);
+          select_technique(set, technique);
           chosen = technique;
         },
         is_of_program);

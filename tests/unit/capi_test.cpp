@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -12,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "session/techniques.h"
 #include "shadow/inputs.h"
 #include "shadow/registry.h"
 
@@ -94,8 +96,22 @@ TEST(CInterface, WhatAPresetSaysOfTheProgramAloneIsLeftOut) {
   expect_refused(penumbra_settings_read_preset(settings.held, "mine.toml", near.data(), near.size()),
                  PENUMBRA_ERROR_REFUSED, "mine.toml:2: unknown parameter 'renders.haze'; see penumbra list params");
   const std::string rays = "technique = \"hybrid\"\n";
-  EXPECT_EQ(penumbra_settings_read_preset(settings.held, "mine.toml", rays.data(), rays.size()),
-            PENUMBRA_ERROR_REFUSED);
+  expect_refused(penumbra_settings_read_preset(settings.held, "mine.toml", rays.data(), rays.size()),
+                 PENUMBRA_ERROR_REFUSED,
+                 "mine.toml:1: technique 'hybrid' needs the program's scene: the library does not have it");
+}
+
+TEST(CInterface, TechniquesOfTheProgramAloneAreRefusedAsSuch) {
+  const Settings settings;
+  const std::vector<std::string> own = shadow::built_in_registry().names();
+  int refused = 0;
+  for (const std::string& name : session::all_techniques().names()) {
+    if (std::ranges::find(own, name) != own.end()) continue;
+    expect_refused(penumbra_settings_select(settings.held, name.c_str()), PENUMBRA_ERROR_REFUSED,
+                   fmt::format("technique '{}' needs the program's scene: the library does not have it", name));
+    ++refused;
+  }
+  EXPECT_EQ(refused, 3);
 }
 
 TEST(CInterface, AnotherTechniqueTakesBackAPresetThatATextNamed) {
