@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "../core/error.h"
+#include "../core/names.h"
 #include "../core/preset.h"
 #include "../shadow/registry.h"
 #include "../shadow/selection.h"
@@ -42,6 +43,15 @@ void select_technique(ParamSet& params, std::string_view technique) {
   if (std::ranges::find(techniques_of_program, technique) != techniques_of_program.end())
     fail("technique '{}' needs the program's scene: the library does not have it", technique);
   shadow::built_in_registry().select(params, technique);
+}
+
+// The name of a parameter. The message about one that is like none has no list of all.
+const char* checked(const ParamSet& params, const char* name) {
+  required(name, "name");
+  const bool known = params.contains(name) || params.renamed_from(name) != nullptr;
+  if (!known && near_names(name, params.names()).empty())
+    fail("unknown parameter '{}'; see penumbra_param_info()", name);
+  return name;
 }
 
 // What presets of the program say of its own scene and pictures is nothing to the library.
@@ -91,7 +101,7 @@ penumbra_result penumbra_settings_select(penumbra_settings* settings, const char
 penumbra_result penumbra_settings_set(penumbra_settings* settings, const char* name, const char* value) {
   return run("penumbra_settings_set", [&] {
     penumbra::ParamSet& params = required(settings, "settings").params;
-    required(name, "name");
+    checked(params, name);
     params.set_text(name, &required(value, "value"));
   });
 }
@@ -99,7 +109,7 @@ penumbra_result penumbra_settings_set(penumbra_settings* settings, const char* n
 penumbra_result penumbra_settings_set_number(penumbra_settings* settings, const char* name, double value) {
   return run("penumbra_settings_set_number", [&] {
     penumbra::ParamSet& params = required(settings, "settings").params;
-    const penumbra::Param& row = params.row(&required(name, "name"));
+    const penumbra::Param& row = params.row(checked(params, name));
     params.set(name, value_of(row, value));
   });
 }
@@ -111,7 +121,7 @@ penumbra_result penumbra_settings_reset(penumbra_settings* settings, const char*
       params = default_params();
       settings->preset.clear();
     } else {
-      params.reset(name);
+      params.reset(checked(params, name));
     }
   });
 }
@@ -120,13 +130,14 @@ penumbra_result penumbra_settings_get(const penumbra_settings* settings, const c
                                       size_t* length) {
   return run("penumbra_settings_get", [&] {
     const penumbra::ParamSet& params = required(settings, "settings").params;
-    write_text(penumbra::to_text(params.value(&required(name, "name"))), text, capacity, length);
+    write_text(penumbra::to_text(params.value(checked(params, name))), text, capacity, length);
   });
 }
 
 penumbra_result penumbra_settings_get_number(const penumbra_settings* settings, const char* name, double* value) {
   return run("penumbra_settings_get_number", [&] {
-    const penumbra::ParamValue& held = required(settings, "settings").params.value(&required(name, "name"));
+    const penumbra::ParamSet& params = required(settings, "settings").params;
+    const penumbra::ParamValue& held = params.value(checked(params, name));
     double& out = required(value, "value");
     if (const auto* flag = std::get_if<bool>(&held)) {
       out = *flag ? 1 : 0;

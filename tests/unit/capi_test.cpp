@@ -165,6 +165,22 @@ TEST(CInterface, ValuesThatAParameterCannotHaveAreRefused) {
   EXPECT_NE(std::string(penumbra_last_error()).find("'pcss'"), std::string::npos) << penumbra_last_error();
 }
 
+TEST(CInterface, AParameterThatIsLikeNoneIsRefusedWithoutAListOfAll) {
+  const Settings settings;
+  const char* unknown = "zzzzzzzz";
+  double number = 0;
+  const auto refused = [](penumbra_result result) {
+    expect_refused(result, PENUMBRA_ERROR_REFUSED, "unknown parameter 'zzzzzzzz'; see penumbra_param_info()");
+  };
+  refused(penumbra_settings_set(settings.held, unknown, "1"));
+  refused(penumbra_settings_set_number(settings.held, unknown, 1));
+  refused(penumbra_settings_reset(settings.held, unknown));
+  refused(penumbra_settings_get(settings.held, unknown, nullptr, 0, nullptr));
+  refused(penumbra_settings_get_number(settings.held, unknown, &number));
+  expect_refused(penumbra_settings_set(settings.held, "sun.angel", "1"), PENUMBRA_ERROR_REFUSED,
+                 "unknown parameter 'sun.angel'; did you mean 'sun.angle'?");
+}
+
 TEST(CInterface, EveryParameterAndTechniqueIsListed) {
   const ParamSet params(shadow::built_in_registry().params());
   ASSERT_EQ(penumbra_param_count(), params.rows().size());
