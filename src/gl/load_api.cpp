@@ -63,7 +63,10 @@ void check_context() {
   glGetIntegerv(GL_MAJOR_VERSION, &major);
   glGetIntegerv(GL_MINOR_VERSION, &minor);
   if (major == 0) fail_context("OpenGL 4.5: no context is current");
-  if (major < 4 || (major == 4 && minor < 5)) fail_context("OpenGL 4.5: the context is OpenGL {}.{}", major, minor);
+  const auto* version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
+  const bool embedded = version != nullptr && std::string_view(version).starts_with("OpenGL ES");
+  if (embedded || major < 4 || (major == 4 && minor < 5))
+    fail_context("OpenGL 4.5: the context is OpenGL {}{}.{}", embedded ? "ES " : "", major, minor);
 }
 
 bool is_of_core_profile() {

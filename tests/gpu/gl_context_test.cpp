@@ -188,6 +188,25 @@ TEST(GlContext, AContextOfAnotherVersionIsRefused) {
   EXPECT_NO_THROW(gl::load_api(real_driver));
 }
 
+const GLubyte* APIENTRY told_version_of_es(GLenum /*name*/) {
+  return reinterpret_cast<const GLubyte*>("OpenGL ES 4.2 of a driver");
+}
+
+TEST(GlContext, AContextOfOpenGlEsIsRefusedAsSuch) {
+  const auto context = gl::make_egl_context();
+  real_driver = context->get_proc_address();
+  question = GL_MINOR_VERSION;
+  answer = 2;
+  EXPECT_EQ(message_of([] {
+              gl::load_api([](const char* function) -> void* {
+                if (std::strcmp(function, "glGetIntegerv") == 0) return reinterpret_cast<void*>(told_get_integer);
+                return std::strcmp(function, "glGetString") == 0 ? reinterpret_cast<void*>(told_version_of_es)
+                                                                 : real_driver(function);
+              });
+            }),
+            "OpenGL 4.5: the context is OpenGL ES 4.2");
+}
+
 TEST(GlContext, BuildsWithAssertionsHaveADebugContextUnlessToldOtherwise) {
 #ifdef NDEBUG
   constexpr bool assertions = false;
