@@ -13,8 +13,8 @@
  * Errors. No exception leaves a function, and none fails without a reason: functions return a penumbra_result, and
  * penumbra_last_error() has one line that names the cause. A function that fails changes nothing that its description
  * does not name. Null pointers, structs of a wrong size, values that are not finite, unknown names and values out of
- * range are refused. What can't be seen from inside is undefined: pointers to other things, and handles that were
- * destroyed.
+ * range are refused. Fields that a call does not use are not looked at, such as `position` of a sun. What can't be seen
+ * from inside is undefined: pointers to other things, and handles that were destroyed.
  *
  * Structs begin with `struct_size`: its caller's sizeof. In later versions of Penumbra structs grow at their end, and
  * nothing else of them changes. A program that was compiled with an earlier version then gets the defaults of the new
@@ -488,7 +488,7 @@ typedef struct penumbra_mask {
                        techniques that compute them in any case */
   int32_t width;    /**< texels */
   int32_t height;   /**< texels */
-  int32_t layers;   /**< the number of lights, at least 1 */
+  int32_t layers;   /**< the number of lights; without any 1, whose texels are undefined */
   int32_t view_id;  /**< of the frame */
 } penumbra_mask;
 
@@ -499,11 +499,13 @@ PENUMBRA_API penumbra_result penumbra_render(penumbra_device* device, const penu
                                              const penumbra_frame* frame, penumbra_mask* mask);
 
 /** Whether penumbra_render() reads penumbra_frame.motion with these settings and lights: `reads` receives 1 or 0. If
- * not, motion vectors need not be drawn. */
+ * not, motion vectors need not be drawn. PENUMBRA_ERROR_ARGUMENT; PENUMBRA_ERROR_REFUSED: overrides;
+ * PENUMBRA_ERROR_CONTEXT. */
 PENUMBRA_API penumbra_result penumbra_reads_motion(penumbra_device* device, const penumbra_settings* settings,
                                                    const penumbra_light* lights, size_t light_count, uint32_t* reads);
 
-/** Releases the maps, the mask and the history of a view; unknown ids have none, and nothing happens. */
+/** Releases the maps, the mask and the history of a view; unknown ids have none, and nothing happens.
+ * PENUMBRA_ERROR_ARGUMENT, CONTEXT. */
 PENUMBRA_API penumbra_result penumbra_forget_view(penumbra_device* device, int32_t view_id);
 
 /** Compiles the programs and makes the tables that penumbra_render() needs with these settings and the frame's
@@ -525,14 +527,16 @@ PENUMBRA_API penumbra_result penumbra_warm_up(penumbra_device* device, const pen
  * normal, of unit length and to the viewer's side; and gl_FragCoord.xy. `light`: for its kind and overrides; null: a
  * sun without overrides. The text belongs to these settings, overrides and this kind of light: ask again when one of
  * them changes, and compile again if it differs; a program of another text reads wrong shadows, which nothing checks.
- * `text`, `capacity` and `length` as in penumbra_settings_get(). */
+ * `text`, `capacity` and `length` as in penumbra_settings_get(), with PENUMBRA_ERROR_BUFFER. PENUMBRA_ERROR_ARGUMENT;
+ * PENUMBRA_ERROR_REFUSED: overrides; PENUMBRA_ERROR_CONTEXT. */
 PENUMBRA_API penumbra_result penumbra_forward_source(penumbra_device* device, const penumbra_settings* settings,
                                                      const penumbra_light* light, char* text, size_t capacity,
                                                      size_t* length);
 /** Binds what that function reads for lights[light_index] of the view's last penumbra_render(): textures and samplers
- * of units 0 to 7, uniform buffers 0 to 2. PENUMBRA_ERROR_ARGUMENT: the view has no mask, or fewer lights. */
+ * of units 0 to 7, uniform buffers 0 to 2. PENUMBRA_ERROR_ARGUMENT: the view has no mask, or fewer lights;
+ * PENUMBRA_ERROR_CONTEXT. */
 PENUMBRA_API penumbra_result penumbra_bind_forward(penumbra_device* device, int32_t view_id, size_t light_index);
-/** Unbinds these textures and samplers. */
+/** Unbinds these textures and samplers. PENUMBRA_ERROR_ARGUMENT, CONTEXT. */
 PENUMBRA_API penumbra_result penumbra_unbind_forward(penumbra_device* device);
 
 /* ------------------------------------------------------------------------------------------------------------ State
