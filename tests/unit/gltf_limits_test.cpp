@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include "scene/gltf/budget.h"
 #include "scene/limits.h"
 #include "support/gltf_files.h"
 
@@ -136,6 +137,31 @@ TEST(GltfLimits, CountTheAttributesThatADracoStreamDeclares) {
   const std::size_t before = most_resident();
   expect_over_data_limit(refusal(text, {.decoded_bytes = 8 << 20, .decoded_ratio = 0}), "8 MiB");
   EXPECT_LT(most_resident() - before, std::size_t{64} << 20);
+}
+
+// Buffers that are the same file, by different names, and one that no bufferView reads.
+TEST(GltfLimits, AFileOfManyBuffersIsLoadedOnce) {
+  const ScratchFolder folder;
+  for (const char* name : {"a.bin", "b.bin"})
+    std::filesystem::resize_file(folder.write(name, ""), std::uintmax_t{16} << 20);
+  std::string buffers = R"({"byteLength":4,"uri":"b.bin"})", views, name = "a.bin";
+  for (int i = 1; i < 16; ++i, name.insert(0, "./")) {
+    buffers += fmt::format(R"(,{{"byteLength":4,"uri":"{}"}})", name);
+    views += fmt::format(R"({}{{"buffer":{},"byteLength":4}})", i == 1 ? "" : ",", i);
+  }
+  const auto file = folder.write("scene.gltf", R"({"asset":{"version":"2.0"},"nodes":[{}],"buffers":[)" + buffers +
+                                                   R"(],"bufferViews":[)" + views + "]}");
+  const std::size_t before = most_resident();
+  scene::read_gltf(file, any_image);
+  EXPECT_LT(most_resident() - before, std::size_t{64} << 20);
+}
+
+TEST(GltfLimits, AFileCountsOnceForWhatMayBeDecoded) {
+  scene::gltf::Budget budget({.decoded_bytes = 0, .decoded_ratio = 1});
+  for (int i = 0; i < 3; ++i) budget.add_file("shared.bin", 10);
+  for (int i = 0; i < 2; ++i) budget.add_file({}, 5);
+  budget.spend(20, 1);
+  EXPECT_NE(error_of([&] { budget.spend(1, 1); }).find("20 bytes of files expand to more"), std::string::npos);
 }
 
 TEST(GltfLimits, ProgressTellsOfEveryPartAtMostAHundredTimes) {

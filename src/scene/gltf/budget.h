@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
+#include <set>
 
 #include "core/error.h"
 #include "scene/gltf.h"
@@ -14,7 +16,10 @@ class Budget {
  public:
   explicit Budget(const ReadLimits& limits) : limits_(limits) {}
 
-  void add_file(std::size_t bytes) { file_bytes_ += bytes; }
+  // Counts what a file holds, each file once. `file` is empty for data that no other part of the scene can share.
+  void add_file(const std::filesystem::path& file, std::size_t bytes) {
+    if (file.empty() || files_.insert(file).second) file_bytes_ += bytes;
+  }
 
   void spend_vertices(std::size_t count) {
     if (count > limits_.vertices - vertices_)
@@ -41,6 +46,7 @@ class Budget {
 
  private:
   ReadLimits limits_;
+  std::set<std::filesystem::path> files_;
   std::size_t file_bytes_ = 0, vertices_ = 0, spent_ = 0, image_bytes_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -61,40 +62,81 @@ bool is_meshopt_fallback(const Json& buffer) {
   return buffer.contains("extensions") && buffer["extensions"].contains("EXT_meshopt_compression");
 }
 
-std::vector<Bytes> load_buffers(Document& document, const Container& container) {
-  std::vector<Bytes> buffers;
-  if (!container.json.contains("buffers")) return buffers;
-  for (const Json& buffer : container.json["buffers"]) {
-    const auto length = buffer["byteLength"].get<std::size_t>();
-    const std::size_t number = buffers.size();
-    Bytes bytes;
-    if (document.left_out.holds("buffers", number)) {
-      buffers.emplace_back();
-      continue;
-    }
-    try {
-      if (buffer.contains("uri")) {
-        document.storage.push_back(
-            load_uri(document.folder, buffer["uri"].get_ref<const std::string&>(), document.options));
-        document.budget.add_file(document.storage.back().size());
-        bytes = document.storage.back();
-      } else if (number == 0 && container.has_binary) {
-        bytes = container.binary;
-      } else {
-        if (!is_meshopt_fallback(buffer)) warn("buffers[{}] has no data; what uses it reads zeros", number);
-        buffers.emplace_back();
-        continue;
-      }
-      if (bytes.size() < length) fail("has {} bytes, not {}", bytes.size(), length);
-    } catch (const Error& e) {
-      document.left_out.add("buffers", number, e.what());
-      buffers.emplace_back();
-      continue;
-    }
-    buffers.push_back(bytes.first(length));
-  }
-  return buffers;
+// Where a bufferView's bytes come from: the compressed form if it has one, else the bufferView itself.
+const Json& origin_of(const Json& view) {
+  if (!view.contains("extensions")) return view;
+  const auto meshopt = view["extensions"].find("EXT_meshopt_compression");
+  return meshopt == view["extensions"].end() ? view : *meshopt;
 }
+
+std::vector<bool> buffers_with_views(const Json& json) {
+  std::vector<bool> viewed(json["buffers"].size(), false);
+  if (!json.contains("bufferViews")) return viewed;
+  for (const Json& view : json["bufferViews"]) {
+    const auto number = origin_of(view)["buffer"].get<std::size_t>();
+    if (number < viewed.size()) viewed[number] = true;  // else the bufferView was left out
+  }
+  return viewed;
+}
+
+class BufferLoader {
+ public:
+  BufferLoader(Document& document, const Container& container) : document_(document), container_(container) {}
+
+  std::vector<Bytes> load() {
+    std::vector<Bytes> buffers;
+    if (!container_.json.contains("buffers")) return buffers;
+    const std::vector<bool> viewed = buffers_with_views(container_.json);
+    for (const Json& buffer : container_.json["buffers"]) {
+      const std::size_t number = buffers.size();
+      Bytes& bytes = buffers.emplace_back();
+      if (document_.left_out.holds("buffers", number)) continue;
+      try {
+        bytes = load(buffer, number, viewed[number]);
+      } catch (const Error& e) {
+        document_.left_out.add("buffers", number, e.what());
+      }
+    }
+    return buffers;
+  }
+
+ private:
+  // Nothing for a buffer without data, or without a bufferView.
+  Bytes load(const Json& buffer, std::size_t number, bool viewed) {
+    const auto length = buffer["byteLength"].get<std::size_t>();
+    Bytes bytes;
+    if (buffer.contains("uri")) {
+      const auto& uri = buffer["uri"].get_ref<const std::string&>();
+      if (!viewed) {
+        open_uri(document_.folder, uri, document_.options);  // for its faults
+        return {};
+      }
+      bytes = load(uri);
+    } else if (number == 0 && container_.has_binary) {
+      bytes = container_.binary;
+    } else {
+      if (!is_meshopt_fallback(buffer)) warn("buffers[{}] has no data; what uses it reads zeros", number);
+      return {};
+    }
+    if (bytes.size() < length) fail("has {} bytes, not {}", bytes.size(), length);
+    return bytes.first(length);
+  }
+
+  // Buffers of one file share its bytes.
+  Bytes load(const std::string& uri) {
+    const auto file = file_of_uri(document_.folder, uri, document_.options);
+    if (const auto known = files_.find(file); known != files_.end()) return known->second;
+    document_.storage.push_back(load_uri(document_.folder, uri, document_.options));
+    const Bytes bytes = document_.storage.back();
+    document_.budget.add_file(file, bytes.size());
+    if (!file.empty()) files_.emplace(file, bytes);
+    return bytes;
+  }
+
+  Document& document_;
+  const Container& container_;
+  std::map<std::filesystem::path, Bytes> files_;
+};
 
 // The bytes of a buffer that a bufferView, or its compressed form, refers to.
 Bytes cut(const std::vector<Bytes>& buffers, const Json& view) {
@@ -114,17 +156,16 @@ void cut_views(Document& document, const Json& json, const std::vector<Bytes>& b
       continue;
     }
     try {
-      const Json extensions = view.value("extensions", Json::object());
-      const auto meshopt = extensions.find("EXT_meshopt_compression");
-      if (meshopt == extensions.end()) {
+      const Json& origin = origin_of(view);
+      if (&origin == &view) {
         document.views.push_back(cut(buffers, view));
         continue;
       }
-      const MeshoptStream stream{.bytes = cut(buffers, *meshopt),
-                                 .count = (*meshopt)["count"].get<std::size_t>(),
-                                 .stride = (*meshopt)["byteStride"].get<std::size_t>(),
-                                 .mode = (*meshopt)["mode"].get<std::string>(),
-                                 .filter = meshopt->value("filter", std::string("NONE"))};
+      const MeshoptStream stream{.bytes = cut(buffers, origin),
+                                 .count = origin["count"].get<std::size_t>(),
+                                 .stride = origin["byteStride"].get<std::size_t>(),
+                                 .mode = origin["mode"].get<std::string>(),
+                                 .filter = origin.value("filter", std::string("NONE"))};
       if (stream.count * stream.stride != view["byteLength"].get<std::size_t>())
         fail("EXT_meshopt_compression's count and byteStride don't give its byteLength");
       document.budget.spend(stream.count, stream.stride);
@@ -227,7 +268,7 @@ Document read_document(const std::filesystem::path& path, const ReadOptions& opt
                     .options = options,
                     .budget = Budget(options.limits),
                     .left_out = LeftOut(path.string(), Used(container.json))};
-  document.budget.add_file(std::filesystem::file_size(path));
+  document.budget.add_file({}, std::filesystem::file_size(path));
   spend_model(document, container.json);
   check_schema(container.json, document.left_out);
   check_asset(container.json);
@@ -235,7 +276,7 @@ Document read_document(const std::filesystem::path& path, const ReadOptions& opt
 
   list_files(document, container.json);
   if (options.names_files) options.names_files(document.files);
-  const std::vector<Bytes> buffers = load_buffers(document, container);
+  const std::vector<Bytes> buffers = BufferLoader(document, container).load();
   cut_views(document, container.json, buffers);
   list_images(document, container.json);
   document.model = parse_model(std::move(container.json));

@@ -73,7 +73,8 @@ void ImageReader::decode(std::size_t image) {
   const ImageSource& source = document_.images[image];
   try {
     const std::vector<std::byte> file = load(source);
-    document_.budget.add_file(file.size());
+    if (source.view < 0)
+      document_.budget.add_file(file_of_uri(document_.folder, source.uri, document_.options), file.size());
     const Bytes bytes = source.view >= 0 ? document_.views[static_cast<std::size_t>(source.view)] : Bytes(file);
     if (bytes.empty()) fail("has no data");
     Image decoded = decode_(bytes, source.name);

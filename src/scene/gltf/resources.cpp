@@ -206,6 +206,16 @@ std::vector<std::byte> load_uri(const std::filesystem::path& folder, std::string
   return of_file(folder, uri, options, load_file);
 }
 
+std::filesystem::path file_of_uri(const std::filesystem::path& folder, std::string_view uri,
+                                  const ReadOptions& options) {
+  if (is_data_uri(uri)) return {};
+  return of_file(folder, uri, options, [](const std::filesystem::path& file, const ReadLimits&) {
+    std::error_code code;
+    auto resolved = std::filesystem::canonical(file, code);
+    return code ? file : resolved;
+  });
+}
+
 ReadAt open_uri(const std::filesystem::path& folder, std::string_view uri, const ReadOptions& options) {
   if (!is_data_uri(uri)) return of_file(folder, uri, options, open_file);
   const auto bytes = std::make_shared<std::vector<std::byte>>(data_uri_bytes(uri));

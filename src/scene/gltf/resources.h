@@ -38,7 +38,11 @@ ReadAt open_file(const std::filesystem::path& file, const ReadLimits& limits);
 // following links, lie inside `folder`, and other schemes are refused, so that a scene can't make the reader open
 // anything else. With `follow_links` only the file's name must lie inside; links may lead anywhere.
 std::vector<std::byte> load_uri(const std::filesystem::path& folder, std::string_view uri, const ReadOptions& options);
-// The same, without reading the file before the result is called.
+// The file that these bytes lie in, with links resolved, so that it is the same for all names of it; empty for a data
+// URI.
+std::filesystem::path file_of_uri(const std::filesystem::path& folder, std::string_view uri,
+                                  const ReadOptions& options);
+// The same as load_uri(), without reading the file before the result is called.
 ReadAt open_uri(const std::filesystem::path& folder, std::string_view uri, const ReadOptions& options);
 
 }  // namespace penumbra::scene::gltf
