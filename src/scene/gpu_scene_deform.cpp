@@ -31,8 +31,8 @@ gl::ProgramDesc triangle_program() { return {.name = "triangle normals", .comput
 
 void append(std::vector<float>& to, const glm::vec3& v) { to.insert(to.end(), {v.x, v.y, v.z}); }
 
-// Of an undeformed vertex; must match glsl/scene/deform.comp.
-constexpr std::size_t rest_floats = 11;
+// Of a vertex; must match glsl/scene/deform.comp.
+constexpr std::size_t rest_floats = 11, influence_words = 6, delta_floats = 9;
 
 void append_rest(std::vector<float>& rest, const Primitive& primitive) {
   const std::vector<float> leans = smooth_leans(primitive);
@@ -69,19 +69,22 @@ void append_deltas(std::vector<float>& deltas, const Primitive& primitive) {
   }
 }
 
-std::vector<Bounds> bounds_by_joint(const Primitive& primitive, std::size_t joints) {
-  std::vector<Bounds> parts(std::max<std::size_t>(joints, 1));
+// The box of the vertices that each joint moves, empty where it moves none; without a skin, of all vertices.
+std::vector<Bounds> bounds_by_joint(const Primitive& primitive, bool skinned) {
+  std::vector<Bounds> boxes(1);
   for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
-    if (joints == 0) {
-      parts[0].add(primitive.positions[i]);
+    if (!skinned) {
+      boxes[0].add(primitive.positions[i]);
       continue;
     }
     for (glm::length_t k = 0; k < 4; ++k) {
-      const std::size_t joint = std::min<std::size_t>(primitive.joints[i][k], joints - 1);
-      if (primitive.weights[i][k] != 0.0f) parts[joint].add(primitive.positions[i]);
+      if (primitive.weights[i][k] == 0.0f) continue;
+      const std::size_t joint = primitive.joints[i][k];
+      if (joint >= boxes.size()) boxes.resize(joint + 1);
+      boxes[joint].add(primitive.positions[i]);
     }
   }
-  return parts;
+  return boxes;
 }
 
 glm::vec3 largest_offset(const MorphTarget& target) {
@@ -104,52 +107,71 @@ void dispatch(gl::Pass& pass, std::uint32_t count) {
 
 }  // namespace
 
-bool Deformer::deforms(const Node& node, const Primitive& primitive) {
-  return !primitive.targets.empty() || (node.skin >= 0 && !primitive.joints.empty());
+bool Deformer::skins(const Node& node, const Primitive& primitive) {
+  return node.skin >= 0 && !primitive.joints.empty();
 }
 
-const Deformer::Source& Deformer::source_of(const Primitive& primitive, std::size_t joints) {
-  const auto [entry, added] = sources_.try_emplace({&primitive, joints});
+bool Deformer::deforms(const Node& node, const Primitive& primitive) {
+  return !primitive.targets.empty() || skins(node, primitive);
+}
+
+std::size_t Deformer::source_bytes(const Primitive& primitive, bool skinned) {
+  const std::size_t floats = rest_floats + (skinned ? influence_words : 0) + primitive.targets.size() * delta_floats;
+  return primitive.positions.size() * floats * sizeof(float);
+}
+
+const Deformer::Source& Deformer::source_of(const Primitive& primitive, bool skinned) {
+  const auto [entry, added] = sources_.try_emplace({&primitive, skinned});
   Source& source = entry->second;
   if (!added) return source;
   source = {.vertices = static_cast<std::uint32_t>(rest_.size() / rest_floats),
-            .influences = static_cast<std::uint32_t>(influences_.size() / 6),
-            .deltas = static_cast<std::uint32_t>(deltas_.size() / 9),
-            .parts = bounds_by_joint(primitive, joints),
-            .offsets = {}};
+            .influences = static_cast<std::uint32_t>(influences_.size() / influence_words),
+            .deltas = static_cast<std::uint32_t>(deltas_.size() / delta_floats)};
+  const std::vector<Bounds> boxes = bounds_by_joint(primitive, skinned);
+  for (std::uint32_t joint = 0; joint < boxes.size(); ++joint)
+    if (!boxes[joint].empty) source.parts.push_back({.joint = joint, .box = boxes[joint]});
   for (const MorphTarget& morph : primitive.targets) source.offsets.push_back(largest_offset(morph));
   append_rest(rest_, primitive);
-  if (joints != 0) append_influences(influences_, primitive);
+  if (skinned) append_influences(influences_, primitive);
   append_deltas(deltas_, primitive);
   return source;
 }
 
+Deformer::NodeInputs Deformer::inputs_of(const Scene& scene, int node) {
+  if (!nodes_.empty() && nodes_.back().node == node) return nodes_.back();
+  const Node& described = scene.nodes[static_cast<std::size_t>(node)];
+  std::size_t targets = 0;
+  for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(described.mesh)].primitives)
+    targets = std::max(targets, primitive.targets.size());
+  nodes_.push_back({.node = node, .joints = joints_, .weights = weights_, .weight_count = targets});
+  if (described.skin >= 0)
+    joints_ += static_cast<std::uint32_t>(scene.skins[static_cast<std::size_t>(described.skin)].joints.size());
+  weights_ += static_cast<std::uint32_t>(targets);
+  return nodes_.back();
+}
+
 int Deformer::add(const Scene& scene, int node, const Primitive& primitive, const Place& place) {
-  const int skin = scene.nodes[static_cast<std::size_t>(node)].skin;
-  const std::size_t joints =
-      skin >= 0 && !primitive.joints.empty() ? scene.skins[static_cast<std::size_t>(skin)].joints.size() : 0;
-  const auto count = static_cast<std::uint32_t>(primitive.positions.size());
-  const auto targets = static_cast<std::uint32_t>(primitive.targets.size());
+  const Node& described = scene.nodes[static_cast<std::size_t>(node)];
+  const bool skinned = skins(described, primitive);
+  const std::size_t joints = skinned ? scene.skins[static_cast<std::size_t>(described.skin)].joints.size() : 0;
   const auto triangles =
       primitive.topology == Topology::triangles ? static_cast<std::uint32_t>(primitive.indices.size() / 3) : 0u;
-  const Source& source = source_of(primitive, joints);
+  const Source& source = source_of(primitive, skinned);
+  const NodeInputs inputs = inputs_of(scene, node);
   jobs_.push_back({.node = node,
                    .source = &source,
                    .block = {.source = source.vertices,
                              .target = place.first_vertex,
-                             .count = count,
+                             .count = static_cast<std::uint32_t>(primitive.positions.size()),
                              .influences = source.influences,
-                             .joints = joints_,
+                             .joints = inputs.joints,
                              .joint_count = static_cast<std::uint32_t>(joints),
                              .deltas = source.deltas,
-                             .weights = weights_,
-                             .target_count = targets,
+                             .weights = inputs.weights,
+                             .target_count = static_cast<std::uint32_t>(primitive.targets.size()),
                              .first_index = place.first_index,
                              .first_triangle = place.first_triangle,
                              .triangle_count = triangles}});
-  joints_ += static_cast<std::uint32_t>(joints);
-  weights_ += targets;
-  vertices_ = std::max<std::size_t>(vertices_, place.first_vertex + count);
   return static_cast<int>(jobs_.size()) - 1;
 }
 
@@ -183,13 +205,17 @@ Bounds Deformer::bounds(int job, const Pose& pose) const {
   for (std::size_t i = 0; i < source.offsets.size(); ++i)
     offset += std::abs(weight_of(pose, own.node, i)) * source.offsets[i];
   Bounds bounds;
-  for (std::size_t joint = 0; joint < source.parts.size(); ++joint) {
-    if (source.parts[joint].empty) continue;
-    Bounds part = source.parts[joint];
+  for (const auto& [joint, box] : source.parts) {
+    Bounds part = box;
     part.add(part.min - offset);
     part.add(part.max + offset);
+    if (!skinned(job)) {
+      bounds.add(part);
+      continue;
+    }
     // A skinned vertex is a weighted mean of its positions under each joint, so it is inside the union of the boxes.
-    bounds.add(skinned(job) ? transformed(part, pose.skin[static_cast<std::size_t>(own.node)][joint]) : part);
+    const std::vector<glm::mat4>& joints = pose.skin[static_cast<std::size_t>(own.node)];
+    bounds.add(transformed(part, joints[std::min<std::size_t>(joint, joints.size() - 1)]));
   }
   return bounds;
 }
@@ -198,10 +224,10 @@ void Deformer::run(gl::Device& device, const Pose& pose, const gl::Buffer& indic
   if (jobs_.empty()) return;
   std::vector<glm::mat4> joints;
   std::vector<float> weights;
-  for (const Job& job : jobs_) {
-    const auto node = static_cast<std::size_t>(job.node);
-    if (job.block.joint_count != 0) joints.insert(joints.end(), pose.skin[node].begin(), pose.skin[node].end());
-    for (std::size_t i = 0; i < job.block.target_count; ++i) weights.push_back(weight_of(pose, job.node, i));
+  for (const NodeInputs& inputs : nodes_) {
+    const std::vector<glm::mat4>& skin = pose.skin[static_cast<std::size_t>(inputs.node)];
+    joints.insert(joints.end(), skin.begin(), skin.end());
+    for (std::size_t i = 0; i < inputs.weight_count; ++i) weights.push_back(weight_of(pose, inputs.node, i));
   }
   assert(joints.size() == joints_ && weights.size() == weights_);
   const gl::Buffer& joint_buffer = device.scratch("joint matrices", joints.size() * sizeof(glm::mat4) + 1);

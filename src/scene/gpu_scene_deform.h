@@ -21,13 +21,19 @@ namespace penumbra::scene {
 class Deformer {
  public:
   static bool deforms(const Node& node, const Primitive& primitive);
+  // Whether the node's skin moves the primitive.
+  static bool skins(const Node& node, const Primitive& primitive);
+  // Of an undeformed primitive on the GPU, in the buffers of the deformer. Nodes that draw it share it, apart from
+  // those that skin it and those that don't.
+  static std::size_t source_bytes(const Primitive& primitive, bool skinned);
 
   // Where a job finds the indices of its primitive, and where its results begin.
   struct Place {
     std::uint32_t first_index = 0, first_vertex = 0, first_triangle = 0;
   };
 
-  // Adds a job; returns its number. Call upload() once after the last add().
+  // Adds a job; returns its number. Jobs of a node share what they read of its pose if they are added one after the
+  // other. Call upload() once after the last add().
   int add(const Scene& scene, int node, const Primitive& primitive, const Place& place);
   void upload();
 
@@ -38,7 +44,6 @@ class Deformer {
   // The bounding box of the deformed vertices, in the space in which they are written.
   Bounds bounds(int job, const Pose& pose) const;
 
-  std::size_t vertices() const { return vertices_; }
   // Where the results are written to.
   struct Results {
     const gl::Buffer& positions;
@@ -51,10 +56,15 @@ class Deformer {
   static std::vector<gl::ProgramDesc> programs();
 
  private:
-  // An undeformed primitive. All nodes that draw it with the same number of joints share it.
+  struct Part {
+    std::uint32_t joint = 0;
+    Bounds box;
+  };
+
+  // An undeformed primitive.
   struct Source {
     std::uint32_t vertices = 0, influences = 0, deltas = 0;  // offsets of the first element of each
-    std::vector<Bounds> parts;       // per joint (without a skin: one): box of the undeformed vertices that it moves
+    std::vector<Part> parts;  // box of the undeformed vertices that each joint moves; without a skin a single one
     std::vector<glm::vec3> offsets;  // per morph target: the most that it moves any vertex
   };
 
@@ -64,11 +74,19 @@ class Deformer {
     glsl::DeformBlock block{};
   };
 
-  const Source& source_of(const Primitive& primitive, std::size_t joints);
+  // What the jobs of a node read of its pose: offsets of the first joint matrix and weight, and the number of weights.
+  struct NodeInputs {
+    int node = -1;
+    std::uint32_t joints = 0, weights = 0;
+    std::size_t weight_count = 0;
+  };
 
-  std::map<std::pair<const Primitive*, std::size_t>, Source> sources_;  // by primitive and number of joints
+  const Source& source_of(const Primitive& primitive, bool skinned);
+  NodeInputs inputs_of(const Scene& scene, int node);
+
+  std::map<std::pair<const Primitive*, bool>, Source> sources_;  // by primitive, and whether it is skinned
   std::vector<Job> jobs_;
-  std::size_t vertices_ = 0;
+  std::vector<NodeInputs> nodes_;
   std::uint32_t joints_ = 0, weights_ = 0;
   std::vector<float> rest_, deltas_;
   std::vector<std::uint32_t> influences_;

@@ -36,6 +36,7 @@ std::size_t texture_bytes(std::size_t width, std::size_t height) {
 std::size_t gpu_vertex_bytes(const Scene& scene) {
   const std::vector<bool> drawn = drawn_nodes(scene);
   std::set<const Primitive*> indexed, rigid;
+  std::set<std::pair<const Primitive*, bool>> undeformed;
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const Node& node = scene.nodes[i];
@@ -47,6 +48,8 @@ std::size_t gpu_vertex_bytes(const Scene& scene) {
       if (indexed.insert(&primitive).second) bytes += primitive.indices.size() * sizeof(std::uint32_t);
       if (Deformer::deforms(node, primitive)) {
         bytes += 2 * pose + vertices * sizeof(VertexSurface);
+        const bool skinned = Deformer::skins(node, primitive);
+        if (undeformed.insert({&primitive, skinned}).second) bytes += Deformer::source_bytes(primitive, skinned);
       } else if (rigid.insert(&primitive).second) {
         bytes += pose + vertices * sizeof(VertexSurface);
       }

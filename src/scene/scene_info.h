@@ -56,7 +56,7 @@ struct SceneInfo {
   std::vector<AnimationInfo> animations;
   std::vector<std::string> extensions;
   std::vector<std::string> unsupported_extensions;  // of those, which are optional: the file is drawn without them
-  std::size_t gpu_vertex_bytes = 0, gpu_texture_bytes = 0;  // that GpuScene uploads
+  std::size_t gpu_vertex_bytes = 0, gpu_texture_bytes = 0;  // that GpuScene holds, by gpu_size.h
   std::optional<Bounds> animated_bounds;  // see there; only where the caller has set it, since it takes long
 };
 

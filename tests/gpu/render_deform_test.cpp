@@ -1,4 +1,5 @@
 // Skinning and morphing on the GPU, compared with the same computation on the CPU.
+#include <algorithm>
 #include <cstdint>
 #include <random>
 
@@ -62,21 +63,24 @@ scene::Scene deforming_scene(bool skinned, bool morphed, unsigned seed = 7, int 
   return scene;
 }
 
-std::vector<glm::vec3> deformed_on_cpu(const scene::Scene& scene, const scene::Pose& pose) {
-  const scene::Primitive& primitive = scene.meshes[0].primitives[0];
+std::vector<glm::vec3> deformed_on_cpu(const scene::Primitive& primitive, std::size_t node, const scene::Pose& pose) {
   std::vector<glm::vec3> result = primitive.positions;
   for (std::size_t i = 0; i < result.size(); ++i) {
     for (std::size_t t = 0; t < primitive.targets.size(); ++t) {
-      result[i] += pose.weights[0][t] * primitive.targets[t].positions[i];
+      result[i] += pose.weights[node][t] * primitive.targets[t].positions[i];
     }
     if (primitive.joints.empty()) continue;
     glm::vec3 sum(0);
     for (int k = 0; k < 4; ++k) {
-      sum += primitive.weights[i][k] * glm::vec3(pose.skin[0][primitive.joints[i][k]] * glm::vec4(result[i], 1));
+      sum += primitive.weights[i][k] * glm::vec3(pose.skin[node][primitive.joints[i][k]] * glm::vec4(result[i], 1));
     }
     result[i] = sum;
   }
   return result;
+}
+
+std::vector<glm::vec3> deformed_on_cpu(const scene::Scene& scene, const scene::Pose& pose) {
+  return deformed_on_cpu(scene.meshes[0].primitives[0], 0, pose);
 }
 
 class DeformTest : public RenderTest {};
@@ -124,6 +128,34 @@ TEST_F(DeformTest, EachOfTwoPrimitivesKeepsItsOwnVertices) {
     ASSERT_LT(glm::distance(gpu[i], of_first[i]), 1e-5f) << i;
     ASSERT_LT(glm::distance(gpu[of_first.size() + i], of_second[i]), 1e-5f) << i;
   }
+}
+
+// Two primitives of a node, and of another one whose skin has more joints.
+TEST_F(DeformTest, PrimitivesOfANodeShareItsJointsAndWeights) {
+  scene::Scene scene = deforming_scene(true, true);
+  scene.meshes[0].primitives.push_back(deforming_scene(true, true, 8).meshes[0].primitives[0]);
+  const int other = static_cast<int>(scene.nodes.size());
+  scene.nodes.push_back(scene.nodes[0]);
+  scene.nodes.back().skin = 1;
+  scene.nodes.back().weights = {0.5f, -1};
+  scene.roots.push_back(other);
+  scene::Skin skin = scene.skins[0];
+  std::ranges::reverse(skin.joints);
+  skin.joints.push_back(0);
+  skin.inverse_bind.emplace_back(1);
+  scene.skins.push_back(skin);
+  scene::GpuScene on_gpu(device, scene);
+  on_gpu.pose(device, 0.4, 0.4);
+  const scene::Pose pose = scene::pose_at(scene, 0.4);
+  std::vector<glm::vec3> cpu;
+  for (const int node : {0, other})
+    for (const scene::Primitive& primitive : scene.meshes[0].primitives)
+      for (const glm::vec3& position : deformed_on_cpu(primitive, static_cast<std::size_t>(node), pose))
+        cpu.push_back(position);
+  const std::vector<glm::vec3> gpu = on_gpu.read_deformed();
+  ASSERT_EQ(gpu.size(), cpu.size());
+  for (std::size_t i = 0; i < cpu.size(); ++i) ASSERT_LT(glm::distance(gpu[i], cpu[i]), 1e-5f) << i;
+  EXPECT_LT(device.scratch("joint matrices", 0).size(), (3 + 4 + 1) * sizeof(glm::mat4));
 }
 
 TEST_F(DeformTest, BoxesHoldEveryVertex) {

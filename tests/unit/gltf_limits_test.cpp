@@ -5,6 +5,7 @@
 
 #include "scene/gltf/budget.h"
 #include "scene/limits.h"
+#include "scene/scene_info.h"
 #include "support/gltf_files.h"
 
 namespace penumbra::test {
@@ -137,6 +138,19 @@ TEST(GltfLimits, CountTheAttributesThatADracoStreamDeclares) {
   const std::size_t before = most_resident();
   expect_over_data_limit(refusal(text, {.decoded_bytes = 8 << 20, .decoded_ratio = 0}), "8 MiB");
   EXPECT_LT(most_resident() - before, std::size_t{64} << 20);
+}
+
+// A thousand of them, empty, of three vertices.
+TEST(GltfLimits, CountWhatMorphTargetsTakeOnTheGpu) {
+  GltfBuilder gltf;
+  gltf.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3", 3);
+  gltf.add(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3);
+  const std::string text =
+      gltf.text(one_mesh(R"({"attributes":{"POSITION":0,"NORMAL":1},"targets":[)" + list(1000, "{}") + "]}"));
+  EXPECT_EQ(refusal(text, {.decoded_bytes = 150'000, .decoded_ratio = 0}), "");
+  expect_over_data_limit(refusal(text, {.decoded_bytes = 50'000, .decoded_ratio = 0}), "");
+  const std::size_t pose = 3 * 28 + 12, fixed = 3 * 24 + 3 * 4;  // vertices and a triangle's normal; the rest of them
+  EXPECT_EQ(scene::describe(load_text(text)).gpu_vertex_bytes, 2 * pose + fixed + std::size_t{3} * (44 + 1000 * 36));
 }
 
 // Buffers that are the same file, by different names, and one that no bufferView reads.

@@ -14,6 +14,7 @@ namespace penumbra::scene::gltf {
 namespace {
 
 constexpr int max_joint_sets = 8;
+constexpr std::size_t gpu_change = 3 * sizeof(glm::vec3);  // of a vertex by a morph target, whatever the target has
 
 // The vertices that a primitive uses. Files often divide one large vertex array among many primitives; each copies only
 // its own.
@@ -60,6 +61,7 @@ class PrimitiveReader {
     }
     read_targets();
     finish_normals();
+    document_.budget.spend(out_.positions.size() * out_.targets.size(), gpu_change);
     return std::move(out_);
   }
 
