@@ -199,20 +199,22 @@ GpuScene::State::State(gl::Device& device, const Scene& described)
 
 PosedVertices& GpuScene::State::posed_at(gl::Device& device, double time, const PosedVertices* keep) {
   for (PosedVertices& vertices : posed) {
-    if (vertices.time == time) return vertices;
+    if (vertices.show(device, time)) return vertices;
   }
   PosedVertices& vertices = &posed[0] == keep ? posed[1] : posed[0];
+  vertices.time.reset();  // until all below has succeeded
   vertices.pose = pose_at(scene, time);
   deformer.run(
       device, vertices.pose, indices,
       {.positions = vertices.positions, .frames = vertices.frames, .triangle_normals = vertices.triangle_normals});
   vertices.time = time;
+  vertices.shader_changes = device.shaders.changes();
   return vertices;
 }
 
 void GpuScene::pose(gl::Device& device, double last_time, double time) {
   State& s = *state_;
-  const auto keeps = [&](const PosedVertices& vertices) { return vertices.time == time; };
+  const auto keeps = [&](const PosedVertices& vertices) { return vertices.show(device, time); };
   const auto kept = std::find_if(s.posed.begin(), s.posed.end(), keeps);
   const PosedVertices* last = &s.posed_at(device, last_time, kept == s.posed.end() ? nullptr : &*kept);
   const PosedVertices* now = &s.posed_at(device, time, last);

@@ -87,8 +87,13 @@ void set_matrix(const gl::Program& program, const CasterMatrix& matrix);
 // A pose on the GPU: the deformed vertices at one time.
 struct PosedVertices {
   std::optional<double> time;
+  std::uint64_t shader_changes = 0;  // that the device had seen when they were computed
   Pose pose;
   gl::Buffer positions, frames, triangle_normals;
+
+  bool show(const gl::Device& device, double at) const {
+    return time == at && shader_changes == device.shaders.changes();
+  }
 };
 
 struct GpuScene::State {

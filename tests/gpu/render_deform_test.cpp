@@ -1,9 +1,12 @@
 // Skinning and morphing on the GPU, compared with the same computation on the CPU.
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <random>
 
 #include "render_scenes.h"
+#include "support/temp_folder.h"
 
 namespace penumbra::test {
 namespace {
@@ -169,6 +172,26 @@ TEST_F(DeformTest, BoxesHoldEveryVertex) {
       EXPECT_GE(box.max[i], exact.max[i] - 1e-4f);
     }
   }
+}
+
+TEST_F(DeformTest, AChangedShaderPosesTheSameTimeAgain) {
+  const TempFolder folder;
+  gl::Device changing{gl::ShaderFiles(folder.path().string()), gl::Timers::Mode::off};
+  const scene::Scene scene = deforming_scene(true, true);
+  scene::GpuScene on_gpu(changing, scene);
+  on_gpu.pose(changing, 0.4, 0.4);
+  const std::vector<glm::vec3> before = on_gpu.read_deformed();
+
+  std::string text = gl::ShaderFiles().read("scene/deform.comp").value();
+  const std::string line = "= position.x;";
+  text.replace(text.find(line), line.size(), "= position.x + 1.0;");
+  std::filesystem::create_directory(folder.path() / "scene");
+  std::ofstream(folder.path() / "scene/deform.comp") << text;
+  changing.shaders.changed("scene/deform.comp");
+  on_gpu.pose(changing, 0.4, 0.4);
+  const std::vector<glm::vec3> after = on_gpu.read_deformed();
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) ASSERT_FLOAT_EQ(after[i].x, before[i].x + 1) << i;
 }
 
 TEST_F(DeformTest, MotionFollowsTheMorph) {
