@@ -16,7 +16,7 @@ void main() {
   for (int i = first + int(gl_LocalInvocationIndex); i < end; i += group_size) {
     ivec2 pixel = ivec2(i % size.x, i / size.x) * STRIDE;
     vec4 root = texelFetch(gbuffer_albedo, pixel, 0);
-    if (root.a == 0.0) continue;  // sky
+    if (root.a < 0.5) continue;  // sky, or an unlit surface, whose colour says nothing of the light
     float albedo = max(dot(root.rgb * root.rgb, luminance), 0.05);
     sum += vec2(log2(clamp(dot(texelFetch(lit, pixel, 0).rgb, luminance) / albedo, 1e-3, 1e2)), 1.0);
   }

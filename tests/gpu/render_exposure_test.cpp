@@ -75,6 +75,13 @@ TEST_F(Exposure, LeavesOutTheSkyAndWhatAlbedoDoes) {
   EXPECT_NEAR(exposure, std::sqrt(2.0f), 1e-4);
 }
 
+TEST_F(Exposure, LeavesOutUnlitSurfaces) {
+  const float exposure = measured(400, 300, [](int x, int /*y*/) {
+    return x < 200 ? Pixel{.radiance = 0.5f} : Pixel{.radiance = 0.25f, .alpha = 1.0f / 3.0f};
+  });
+  EXPECT_NEAR(exposure, 2, 1e-4);
+}
+
 // As ADR 32 has it, of ground that fills the picture, at noon and in the evening.
 TEST_F(RenderTest, SunlitSurfacesAreDisplayedByTheirAlbedo) {
   inputs.camera = inputs.last_camera = render::look_at({0, 2, 2}, {0, 0, 0}, 0.6f, 0.01f);
