@@ -23,7 +23,8 @@ void main() {
   out_geometric_normal = octahedral_encode(geometric);
   out_material = vec4(properties, smooth_lean());
 #if EMISSION
-  out_emission = min(emission(surface_uv()), vec3(64000.0));
+  vec3 emitted = emission(surface_uv());
+  out_emission = emitted * min(1.0, 64000.0 / max(max(emitted.r, emitted.g), max(emitted.b, 1.0)));  // as can be stored
 #endif
 #if MOTION
   out_motion = motion();

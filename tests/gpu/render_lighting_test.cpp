@@ -141,6 +141,14 @@ TEST_F(LightingTest, BlendedSurfacesLieOverWhatIsBehind) {
   EXPECT_NEAR(seen.b, 0.25f, 5e-3f);
 }
 
+TEST_F(LightingTest, StrongEmissionKeepsItsHue) {
+  draw(white_square({.emissive = {1e6f, 2.5e5f, 0}}));
+  const glm::vec3 seen = pixel3("emission", width / 2, height / 2);
+  EXPECT_NEAR(seen.r, 64000, 1000);
+  EXPECT_NEAR(seen.g, 16000, 500);
+  EXPECT_EQ(seen.b, 0);
+}
+
 TEST_F(LightingTest, NoAovHoldsAnythingNotFinite) {
   scene::Primitive bad = square();
   bad.normals.assign(4, {0, 0, 0});
