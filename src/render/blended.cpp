@@ -38,14 +38,17 @@ void draw_blended(gl::Device& device, const BlendedInputs& inputs) {
   const std::string fragment = put_fragment_shader(device.shaders.files(), forward.include);
   inputs.soft_shadows.bind_forward(inputs.mask, 0);
   const Frustum frustum(inputs.view.world_to_clip);
-  const glm::vec3 eye = position_of(inputs.camera);
+  const glm::vec3 eye = position_of(inputs.camera), ahead(inputs.view.forward);
   inputs.scene.draw_blended(
       device, pass,
       [&](const scene::SurfaceTraits& traits) {
         pass.use(program(fragment, forward.defines, inputs.lamps, traits)).set("world_to_view", inputs.camera.view);
       },
       [&](const scene::Bounds& box) { return frustum.holds(box); },
-      [&](const scene::Bounds& box) { return glm::distance(box.center(), eye); });
+      [&](const scene::Bounds& box) {
+        const glm::vec3 away = box.center() - eye;
+        return inputs.camera.orthographic ? glm::dot(ahead, away) : glm::length(away);
+      });
 }
 
 std::vector<gl::ProgramDesc> blended_programs(gl::Device& device, const shadow::SoftShadows& soft_shadows,

@@ -141,6 +141,28 @@ TEST_F(LightingTest, BlendedSurfacesLieOverWhatIsBehind) {
   EXPECT_NEAR(seen.b, 0.25f, 5e-3f);
 }
 
+// The nearer one reaches so far to the side that its centre is farther from the eye.
+TEST_F(LightingTest, BlendedSurfacesLieOverWhatIsBehindInAnOrthographicPicture) {
+  inputs.camera.orthographic = inputs.last_camera.orthographic = true;
+  inputs.camera.half_height = inputs.last_camera.half_height = 1;
+  scene::Scene scene = white_square({.base_color = {1, 1, 1, 1}, .unlit = true});
+  for (const float z : {1.0f, 0.5f}) {
+    const bool near = z == 1.0f;
+    scene.materials.push_back({.base_color = near ? glm::vec4(1, 0, 0, 0.5f) : glm::vec4(0, 1, 0, 0.5f),
+                               .alpha_mode = scene::AlphaMode::blend,
+                               .unlit = true});
+    scene::Primitive quad = square();
+    quad.material = static_cast<int>(scene.materials.size()) - 1;
+    const glm::mat4 place = glm::translate(glm::mat4(1), glm::vec3(near ? 6 : 0, 0, z));
+    add_node(scene, quad, glm::scale(place, glm::vec3(near ? 8 : 1, 1, 1)));
+  }
+  draw(scene);
+  const glm::vec3 seen = pixel3("color", width / 2, height / 2);
+  EXPECT_NEAR(seen.r, 0.75f, 5e-3f);
+  EXPECT_NEAR(seen.g, 0.5f, 5e-3f);
+  EXPECT_NEAR(seen.b, 0.25f, 5e-3f);
+}
+
 TEST_F(LightingTest, StrongEmissionKeepsItsHue) {
   draw(white_square({.emissive = {1e6f, 2.5e5f, 0}}));
   const glm::vec3 seen = pixel3("emission", width / 2, height / 2);
