@@ -52,7 +52,7 @@ float smooth_lean() {
 
 // The triangle's geometric normal in world space, on the camera's side, not of unit length. It comes from the
 // triangle's vertices, because derivatives of the position are too inexact for wide kernels, which multiply the error.
-// Lines and points take their shading normal.
+// Lines and points take their shading normal, or where the node's matrix leaves none the direction to the camera.
 vec3 geometric_normal() {
 #if TRIANGLES
   uint at = 3u * (surface.first_triangle + uint(gl_PrimitiveID));
@@ -62,6 +62,7 @@ vec3 geometric_normal() {
   if (!(size > 0.0)) return gl_FrontFacing ? surface.normal : -surface.normal;
   return n * ((gl_FrontFacing ? 1.0 : -1.0) / size);
 #else
+  if (!(dot(surface.normal, surface.normal) > 0.0)) return -view_ray();
   return dot(surface.normal, view_ray()) > 0.0 ? -surface.normal : surface.normal;
 #endif
 }

@@ -181,6 +181,11 @@ TEST_F(LightingTest, NoAovHoldsAnythingNotFinite) {
   bad.material = 0;
   add_node(scene, bad, glm::mat4(1));
   add_node(scene, square(), glm::scale(glm::translate(glm::mat4(1), glm::vec3(0, 0, 1)), glm::vec3(1, 0, 1)));
+  const scene::Primitive line{.topology = scene::Topology::lines,
+                              .indices = {0, 1},
+                              .positions = {{0, -1, 2}, {0, 1, 2}},
+                              .normals = {{0, 1, 0}, {0, 1, 0}}};
+  add_node(scene, line, glm::scale(glm::mat4(1), glm::vec3(0, 1, 1)));  // which leaves its normal no length
   params.set_text("technique", "pcss");
   inputs.mask_details = true;
   draw(scene);
