@@ -180,7 +180,10 @@ void make_tangents(Primitive& primitive, int uv_set, const glm::mat3x2& uv_trans
   for (std::size_t i = 0; i < primitive.tangents.size(); ++i) {
     const glm::dvec3 normal(primitive.normals[i]);
     const glm::dvec3 flattened = sums.tangents[i] - normal * glm::dot(normal, sums.tangents[i]);
-    const glm::vec3 tangent = unit_or(flattened, any_orthogonal(primitive.normals[i]));
+    // At a seam where the texture is mirrored, the tangents of both sides cancel out.
+    const bool cancelled = glm::length(flattened) < 1e-3 * glm::length(sums.bitangents[i]);
+    const glm::vec3 across = unit_or(glm::cross(sums.bitangents[i], normal), any_orthogonal(primitive.normals[i]));
+    const glm::vec3 tangent = cancelled ? across : unit_or(flattened, across);
     const double handedness = glm::dot(glm::cross(normal, glm::dvec3(tangent)), sums.bitangents[i]);
     primitive.tangents[i] = glm::vec4(tangent, handedness < 0 ? -1.0f : 1.0f);
   }

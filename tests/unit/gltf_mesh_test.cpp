@@ -169,22 +169,39 @@ TEST(GltfMesh, KeepsTheFourHeaviestOfManyJoints) {
   EXPECT_NEAR(primitive.weights[0][3], 0.1 / 0.8, 1e-6) << "weights sum to one again";
 }
 
+const std::string normal_mapped = R"("materials":[{"normalTexture":{"index":0}}],"textures":[{"source":0}],)"
+                                  R"("images":[{"uri":"data:image/png;base64,AAAA"}])";
+
 TEST(GltfMesh, GeneratesTangentsForNormalMaps) {
-  const std::string material = R"("materials":[{"normalTexture":{"index":0}}],"textures":[{"source":0}],)"
-                               R"("images":[{"uri":"data:image/png;base64,AAAA"}])";
   GltfBuilder gltf;
   gltf.add(square, "VEC3", 3);
   gltf.add(square_normals, "VEC3", 3);
   gltf.add(std::vector<float>{0, 1, 0, 0, 1, 0, 1, 1}, "VEC2", 2);  // u along +y, v along -x
   gltf.add(std::vector<uint8_t>{0, 1, 2, 0, 2, 3}, "SCALAR", 1);
   const Primitive primitive = read_primitive(
-      gltf, R"({"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"indices":3,"material":0})", material);
+      gltf, R"({"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"indices":3,"material":0})", normal_mapped);
   ASSERT_EQ(primitive.tangents.size(), 4u);
   for (const glm::vec4& tangent : primitive.tangents) {
     EXPECT_NEAR(tangent.y, 1, 1e-5);
     EXPECT_EQ(tangent.w, 1);  // cross(n, t) = -x, the direction of growing v
   }
   EXPECT_TRUE(read_mode(6).tangents.empty()) << "none where no normal map needs them";
+}
+
+// Two triangles beside an edge along y, with the texture mirrored in it: the directions of growing u cancel out there.
+TEST(GltfMesh, GeneratesTangentsAcrossMirroredSeams) {
+  GltfBuilder gltf;
+  gltf.add(std::vector<float>{0, 0, 0, 0, 1, 0, 1, 0, 0, -1, 0, 0}, "VEC3", 3);
+  gltf.add(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3);
+  gltf.add(std::vector<float>{0, 0, 0, 1, 1, 0, 1, 0}, "VEC2", 2);
+  gltf.add(std::vector<uint8_t>{0, 2, 1, 0, 1, 3}, "SCALAR", 1);
+  const Primitive primitive = read_primitive(
+      gltf, R"({"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2},"indices":3,"material":0})", normal_mapped);
+  ASSERT_EQ(primitive.tangents.size(), 4u);
+  for (const glm::vec4& tangent : primitive.tangents) {
+    EXPECT_NEAR(std::abs(tangent.x), 1, 1e-5);
+    EXPECT_EQ(tangent.w, tangent.x < 0 ? -1 : 1) << "v grows along +y on both sides";
+  }
 }
 
 TEST(GltfMesh, SkipsWhatHasNoPositions) {
