@@ -22,7 +22,8 @@ std::vector<std::byte> pixel_segments_of_jpeg(std::span<const std::byte> encoded
 
 // Checks the header of an EXR before anything is allocated for it. Throws Error for a header that is truncated or
 // contradicts itself; for more than `max_pixels`, 16 times as many values, 32768 pixels a side or 2^20 values a line;
-// and for unsupported kinds: several parts, deep data, and subsampled channels.
+// for tiles of more than 2^24 values that are larger than the picture; and for unsupported kinds: several parts, deep
+// data, and subsampled channels.
 void check_exr_header(std::span<const std::byte> encoded, std::size_t max_pixels);
 
 }  // namespace penumbra::image

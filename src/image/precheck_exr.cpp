@@ -13,6 +13,7 @@ constexpr std::uint32_t tiled = 0x200, deep = 0x800, multipart = 0x1000;
 constexpr std::size_t values_per_pixel = 16;
 constexpr std::int64_t largest_side = 1 << 15, largest_tile = 1 << 14;
 constexpr std::size_t line_values = std::size_t{1} << 20;  // the library decodes up to 256 lines at once
+constexpr std::size_t tile_values = std::size_t{1} << 24;  // unless the picture has as many: it decodes whole tiles
 
 // Reads the header from front to back and checks that no read exceeds the file.
 class Reader {
@@ -46,8 +47,8 @@ class Reader {
 
 struct Header {
   std::int64_t width = 0, height = 0;
-  std::size_t channels = 0;
-  bool has_tiles = false;
+  std::size_t channels = 0, tile_pixels = 0;
+  bool has_tiles() const { return tile_pixels > 0; }
 };
 
 std::size_t checked_channels(Reader value) {
@@ -69,11 +70,12 @@ void read_attribute(Header& header, const std::string& name, Reader value) {
   } else if (name == "channels") {
     header.channels = checked_channels(value);
   } else if (name == "tiles") {
+    header.tile_pixels = 1;
     for (const char* side : {"wide", "high"}) {
       const std::int64_t pixels = value.number();
       if (pixels < 1 || pixels > largest_tile) fail("EXR with tiles {} pixels {}", pixels, side);
+      header.tile_pixels *= static_cast<std::size_t>(pixels);
     }
-    header.has_tiles = true;
   }
 }
 
@@ -93,7 +95,7 @@ void check_exr_header(std::span<const std::byte> encoded, std::size_t max_pixels
   }
   if (header.width < 1 || header.height < 1) fail("an image without pixels");
   if (header.channels == 0) fail("EXR without channels");
-  if (((version & tiled) != 0) != header.has_tiles) fail("EXR whose version field and header disagree about tiles");
+  if (((version & tiled) != 0) != header.has_tiles()) fail("EXR whose version field and header disagree about tiles");
   if (header.width > largest_side || header.height > largest_side)
     fail("{} x {} pixels, over the limit of {} a side", header.width, header.height, largest_side);
   check_pixels(header.width, header.height, max_pixels);
@@ -103,6 +105,8 @@ void check_exr_header(std::span<const std::byte> encoded, std::size_t max_pixels
   if (header.channels > values_per_pixel * max_pixels / (width * height))
     fail("{} x {} pixels with {} channels, over the limit of {} values", width, height, header.channels,
          values_per_pixel * max_pixels);
+  if (header.tile_pixels * header.channels > std::max(width * height * header.channels, tile_values))
+    fail("EXR of {} x {} pixels with tiles of {} pixels", width, height, header.tile_pixels);
 }
 
 }  // namespace penumbra::image

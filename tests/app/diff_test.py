@@ -22,20 +22,21 @@ def png(path, rows):
     return path
 
 
-def exr(path, width, height, channels, window=None):
-    """An uncompressed float EXR; `channels` maps names to lists of width * height values."""
+def exr(path, width, height, channels, window=None, tile=None):
+    """An uncompressed float EXR; `channels` maps names to lists of width * height values. With `tile`, its header says
+    that it has square tiles of that side."""
     def attribute(name, kind, value):
         return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
 
     names = sorted(channels)
     listed = b"".join(name.encode() + b"\0" + struct.pack("<iB3xii", 2, 0, 1, 1) for name in names) + b"\0"
     box = struct.pack("<4i", 0, 0, width - 1, height - 1)
-    header = struct.pack("<2i", 20000630, 2) + b"".join((
+    header = struct.pack("<2i", 20000630, 2 | (0x200 if tile else 0)) + b"".join((
         attribute("channels", "chlist", listed), attribute("compression", "compression", b"\0"),
         attribute("dataWindow", "box2i", window or box), attribute("displayWindow", "box2i", window or box),
         attribute("lineOrder", "lineOrder", b"\0"), attribute("pixelAspectRatio", "float", struct.pack("<f", 1)),
         attribute("screenWindowCenter", "v2f", bytes(8)), attribute("screenWindowWidth", "float", struct.pack("<f", 1))))
-    header += b"\0"
+    header += (attribute("tiles", "tiledesc", struct.pack("<2IB", tile, tile, 0)) if tile else b"") + b"\0"
     size = 4 * width * len(names)
     first = len(header) + 8 * height
     table = b"".join(struct.pack("<Q", first + y * (8 + size)) for y in range(height))
@@ -271,6 +272,9 @@ class Refusals(Diff):
         self.assertIn("100000 x 100000", self.refuse("diff", self.folder / "huge.exr", self.grey))
         exr(self.folder / "none.exr", 4, 3, {"V": [0.5] * 12}, window=struct.pack("<4i", 0, 0, -1, 5))
         self.assertIn("without pixels", self.refuse("diff", self.folder / "none.exr", self.grey))
+        exr(self.folder / "tile.exr", 4, 3, {"V": [0.5] * 12}, tile=16384)
+        self.assertIn("4 x 3 pixels with tiles of 268435456 pixels",
+                      self.refuse("diff", self.folder / "tile.exr", self.grey))
         big = b"IHDR" + struct.pack(">2I5B", 99_999, 99_999, 8, 2, 0, 0, 0)
         data = self.grey.read_bytes()
         self.assertIn("99999 x 99999", self.broken("huge.png", data[:12] + big + struct.pack(">I", zlib.crc32(big))
