@@ -1,8 +1,9 @@
 #include "image/precheck.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <cstring>
 #include <string_view>
 
@@ -13,22 +14,6 @@ namespace penumbra::image {
 namespace {
 
 constexpr std::size_t chunk_frame = 12;  // length and type before the data, checksum after
-
-constexpr std::array<uint32_t, 256> crc_table = [] {
-  std::array<uint32_t, 256> table{};
-  for (uint32_t i = 0; i < 256; ++i) {
-    uint32_t value = i;
-    for (int bit = 0; bit < 8; ++bit) value = (value & 1) != 0 ? 0xEDB88320u ^ value >> 1 : value >> 1;
-    table[i] = value;
-  }
-  return table;
-}();
-
-uint32_t crc32(std::span<const std::byte> bytes) {
-  uint32_t crc = ~0u;
-  for (const std::byte byte : bytes) crc = crc_table[(crc ^ std::to_integer<uint32_t>(byte)) & 0xFF] ^ crc >> 8;
-  return ~crc;
-}
 
 bool carries_pixels(std::string_view type) {
   constexpr std::array<std::string_view, 5> types = {"IHDR", "PLTE", "tRNS", "IDAT", "IEND"};
@@ -50,7 +35,8 @@ std::vector<std::byte> pixel_chunks_of_png(std::span<const std::byte> encoded) {
     if ((at == png_signature.size()) != (name == "IHDR")) fail("PNG does not begin with its header");
     const bool optional = name[0] >= 'a' && name[0] <= 'z';  // by PNG's rule; decoders must understand all others
     if (carries_pixels(name) || !optional) {
-      if (crc32(chunk.subspan(4, length + 4)) != big_endian(chunk, length + 8, 4))
+      const auto* checked = reinterpret_cast<const Bytef*>(chunk.data() + 4);
+      if (crc32(0, checked, static_cast<uInt>(length + 4)) != big_endian(chunk, length + 8, 4))
         fail("PNG chunk {} is damaged", name);
       kept.insert(kept.end(), chunk.begin(), chunk.end());
     }
