@@ -71,8 +71,14 @@ TEST(GltfUnused, SkinsCamerasAndLights) {
   expect_left_out(drawn_triangle(rest + R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot",)"
                                         R"("spot":{"innerConeAngle":0.1,"outerConeAngle":2}}]}})"),
                   "extensions.KHR_lights_punctual.lights[0]");
+  for (const char* type : {"perspective", "orthographic"})
+    expect_left_out(drawn_triangle(rest + fmt::format(R"("cameras":[{{"type":"{}"}}])", type)), "cameras[0]");
+  expect_left_out(drawn_triangle(rest + R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot"}]}})"),
+                  "extensions.KHR_lights_punctual.lights[0].spot is missing");
   const std::string used = meshes() + R"(,"nodes":[{"mesh":0,"camera":0}],)" + scene_part + ",";
   expect_refused(drawn_triangle(used + R"("cameras":[{"type":"fisheye"}])"));
+  const std::string without = drawn_triangle(used + R"("cameras":[{"type":"perspective"}])");
+  EXPECT_NE(error_of([&] { load_text(without); }).find("cameras[0].perspective is missing"), std::string::npos);
 }
 
 TEST(GltfUnused, MeshesMaterialsAndImages) {

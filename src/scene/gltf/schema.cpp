@@ -35,7 +35,7 @@ class Walker {
     const std::string_view rest = end == std::string_view::npos ? std::string_view() : path.substr(end);
     const auto found = value.find(key);
     if (found == value.end()) {
-      if (rest.empty() && check_.required) fail("{}{}{} is missing", where_, where_.empty() ? "" : ".", key);
+      if (rest.empty() && is_required_of(value)) fail("{}{}{} is missing", where_, where_.empty() ? "" : ".", key);
       return;
     }
     const std::size_t length = where_.size();
@@ -43,6 +43,10 @@ class Walker {
     where_ += key;
     below(*found, rest);
     where_.resize(length);
+  }
+
+  bool is_required_of(const Json& owner) const {
+    return check_.required && (check_.of_type.empty() || owner.value("type", std::string()) == check_.of_type);
   }
 
   void below(Json& value, std::string_view rest) {

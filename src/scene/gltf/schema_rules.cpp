@@ -24,6 +24,11 @@ Check required(Check check) {
   return check;
 }
 
+Check required_of(std::string type, Check check) {
+  check.of_type = std::move(type);
+  return required(std::move(check));
+}
+
 void add_texture_rules(std::vector<Rule>& rules, const std::string& path) {
   rules.push_back({path, object()});
   rules.push_back({path + ".index", required(index("textures"))});
@@ -138,6 +143,8 @@ void add_node_rules(std::vector<Rule>& rules) {
       {"skins[].skeleton", index("nodes")},
       {"skins[].inverseBindMatrices", index("accessors")},
       {"cameras[].type", required(text({"perspective", "orthographic"}))},
+      {"cameras[].perspective", required_of("perspective", object())},
+      {"cameras[].orthographic", required_of("orthographic", object())},
       {"cameras[].perspective.yfov", required(number(1e-4, 2 * half_pi - 1e-4))},
       {"cameras[].perspective.znear", required(number(tiny))},
       {"cameras[].perspective.zfar", number(tiny)},
@@ -149,6 +156,7 @@ void add_node_rules(std::vector<Rule>& rules) {
       {lights + "[].color", numbers(3, 0, 1e6)},
       {lights + "[].intensity", number(0, 1e12)},
       {lights + "[].range", number(0)},
+      {spot, required_of("spot", object())},
       {spot + ".innerConeAngle", number(0, half_pi)},
       {spot + ".outerConeAngle", number(tiny, half_pi + 1e-6)},
       {"animations[].channels", required(array())},

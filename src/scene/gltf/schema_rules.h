@@ -13,6 +13,7 @@ enum class Type { boolean, integer, number, numbers, text, object, array, index 
 struct Check {
   Type type;
   bool required = false;
+  std::string of_type = {};              // required only where the owner's member "type", checked before, is this
   double min = -FLT_MAX, max = FLT_MAX;  // range of a number, an integer, or each element of an array of numbers
   std::size_t length = 0;                // of an array of numbers; 0: any
   std::string into;                      // for an index: the path of the array that it refers to
