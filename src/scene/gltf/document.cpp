@@ -304,10 +304,6 @@ int index_or(const tinygltf::Value& object, const char* key, int otherwise) {
   return object.Has(key) ? object.Get(key).GetNumberAsInt() : otherwise;
 }
 
-std::string text_or(const tinygltf::Value& object, const char* key, const char* otherwise) {
-  return object.Has(key) ? object.Get(key).Get<std::string>() : otherwise;
-}
-
 std::vector<double> numbers_or(const tinygltf::Value& object, const char* key, std::vector<double> otherwise) {
   if (!object.Has(key)) return otherwise;
   const tinygltf::Value& array = object.Get(key);

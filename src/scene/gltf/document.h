@@ -60,7 +60,6 @@ CastSetting casting_of_extras(const tinygltf::Value& extras, const std::string& 
 // Members of an extension's object, which the schema has checked.
 double number_or(const tinygltf::Value& object, const char* key, double otherwise);
 int index_or(const tinygltf::Value& object, const char* key, int otherwise);
-std::string text_or(const tinygltf::Value& object, const char* key, const char* otherwise);
 std::vector<double> numbers_or(const tinygltf::Value& object, const char* key, std::vector<double> otherwise);
 
 }  // namespace penumbra::scene::gltf
