@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lib/tone_map.glsl"
+#include "scene/srgb.h"
 
 namespace penumbra::render {
 
@@ -18,13 +19,10 @@ std::uint8_t to_byte(float value) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
 }
 
-// The inverse of glsl::srgb_encode().
-float srgb_decode(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
-
 const std::array<float, 256>& linear_of_byte() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = srgb_decode(static_cast<float>(i) / 255.0f);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = scene::srgb_decode(static_cast<float>(i) / 255.0f);
     return values;
   }();
   return table;

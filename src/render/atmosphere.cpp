@@ -111,8 +111,6 @@ void visit_sky(int rows, Visit visit) {
   }
 }
 
-float luminance(const glm::vec3& color) { return glm::dot(color, {0.2126f, 0.7152f, 0.0722f}); }
-
 }  // namespace
 
 Atmosphere::Atmosphere(float haze) : aerosols_(haze / mie_height) {

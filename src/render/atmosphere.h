@@ -6,6 +6,9 @@
 
 namespace penumbra::render {
 
+// Of linear Rec. 709.
+inline float luminance(const glm::vec3& color) { return glm::dot(color, {0.2126f, 0.7152f, 0.0722f}); }
+
 // A sky as pictures need it. Radiance is divided by the luminous irradiance over pi of a level plane under a sun that
 // is 45 degrees high: so it is about 1 in that light, and darker when the sun is low.
 struct SkyTable {

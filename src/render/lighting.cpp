@@ -16,8 +16,6 @@ static_assert(sizeof(glsl::DirectLightBlock) == 64);
 static_assert(offsetof(glsl::LightingBlock, lights) == 160);
 static_assert(LIGHTING_MAX_LIGHTS == max_lights);
 
-float luminance(const glm::vec3& color) { return glm::dot(color, {0.2126f, 0.7152f, 0.0722f}); }
-
 // The factor from luminance to picture values. With manual exposure, it follows EV at ISO 100, with the middle of a
 // light meter's range at 1.2 · 2^EV (ISO 2720 with K = 12.5). With automatic exposure, white in the sun becomes 1, and
 // measure_exposure() computes the remaining factor.

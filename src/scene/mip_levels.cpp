@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <span>
+
+#include "scene/srgb.h"
 
 namespace penumbra::scene {
 
 namespace {
 
 constexpr std::size_t channels = 4;
-
-float linear_of(float code) { return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f); }
 
 // From a code to its value, 0 to 1.
 using Decoding = std::array<float, 256>;
@@ -26,7 +25,7 @@ struct Coding {
 
 Coding make_coding(bool srgb) {
   Coding coding{};
-  const auto value_of = [&](float code) { return srgb ? linear_of(code / 255.0f) : code / 255.0f; };
+  const auto value_of = [&](float code) { return srgb ? srgb_decode(code / 255.0f) : code / 255.0f; };
   for (std::size_t code = 0; code < coding.decode.size(); ++code)
     coding.decode[code] = value_of(static_cast<float>(code));
   constexpr auto last = static_cast<float>(Encoding{}.size() - 1);

@@ -12,6 +12,7 @@
 #include "core/log.h"
 #include "core/names.h"
 #include "scene/casting.h"
+#include "scene/gpu_scene_materials.h"
 #include "scene/one_line.h"
 
 namespace penumbra::scene {
@@ -176,10 +177,6 @@ class SkyFinder {
   std::array<glm::vec3, direction_count> directions_;
 };
 
-Material material_of(const Scene& scene, const Primitive& primitive) {
-  return primitive.material < 0 ? Material() : scene.materials[static_cast<std::size_t>(primitive.material)];
-}
-
 std::string quoted_or(const std::string& name, const std::string& otherwise) {
   return name.empty() ? otherwise : "'" + name + "'";
 }
@@ -193,7 +190,7 @@ void warn_of_skies(const std::filesystem::path& file, const Scene& scene) {
     const Node& node = scene.nodes[number];
     if (!node.sky) continue;
     for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
-      const Material material = material_of(scene, primitive);
+      const Material& material = Materials::of(scene, primitive.material);
       if (!casts_as_parameters_say(node, material)) continue;
       warn("{}: {}", file.string(),
            one_line(fmt::format(
