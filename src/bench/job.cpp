@@ -74,7 +74,9 @@ class BenchJob : public plan::Job {
 
   plan::SceneFacts facts(std::size_t /*scene*/) const override {
     constexpr double most_casters = 1e6;  // in software
-    if (options_.scene.empty()) return {.view = Json::object(), .files = {}, .triangles = most_casters};
+    if (options_.scene.empty()) {
+      return {.view = Json::object(), .files = plan::shaders_of(options_), .triangles = most_casters};
+    }
     plan::ImageSizes images(tools_.probe);
     const session::PreparedScene prepared = session::load_scene(options_, images.decoder());
     cli::warn_without_lights(options_, options_, session::kinds_of_light(prepared));

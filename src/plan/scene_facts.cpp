@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <iterator>
 #include <system_error>
 #include <variant>
 
@@ -56,17 +57,6 @@ void find_files(std::vector<fs::path>& found, const fs::path& folder, std::vecto
   }
 }
 
-// All files in the folder, at any depth, in the order of their names.
-void add_shaders(std::vector<SceneFile>& files, const fs::path& folder) {
-  std::vector<fs::path> shaders;
-  find_files(shaders, folder);
-  // A shader that is put there later would change the pictures, and nothing in the plan would tell.
-  if (shaders.empty()) fail("--glsl {}: there is no shader to plan with", io::quoted(folder));
-  std::ranges::sort(shaders);
-  for (const fs::path& shader : shaders)
-    files.push_back({.path = shader, .shader = shader.lexically_relative(folder).generic_string()});
-}
-
 // Sample points of a technique that every pixel reads, or rays.
 double points_of(const ParamSet& params, const shadow::Registry& registry) {
   const std::string& name = params.get_word("technique");
@@ -86,12 +76,26 @@ scene::ImageDecoder ImageSizes::decoder() {
           probe_};
 }
 
+std::vector<SceneFile> shaders_of(const cli::DeviceOptions& device) {
+  const fs::path folder = device.glsl;
+  if (folder.empty()) return {};
+  std::vector<fs::path> shaders;
+  find_files(shaders, folder);
+  // A shader that is put there later would change the pictures, and nothing in the plan would tell.
+  if (shaders.empty()) fail("--glsl {}: there is no shader to plan with", io::quoted(folder));
+  std::ranges::sort(shaders);
+  std::vector<SceneFile> files;
+  for (const fs::path& shader : shaders)
+    files.push_back({.path = shader, .shader = shader.lexically_relative(folder).generic_string()});
+  return files;
+}
+
 SceneFacts facts_of(const session::PreparedScene& prepared, const cli::DeviceOptions& device,
                     const ImageSizes& images) {
   const scene::Scene& scene = prepared.scene;
   SceneFacts facts{.view = view_of(prepared.setup), .files = {}};
   for (const fs::path& file : scene.files) facts.files.push_back({.path = file});
-  if (!device.glsl.empty()) add_shaders(facts.files, device.glsl);
+  std::ranges::move(shaders_of(device), std::back_inserter(facts.files));
   facts.triangles = static_cast<double>(scene::count_drawn(scene).triangles);
   facts.lights = static_cast<double>(render::shadowed_lights(prepared.setup).size());
   for (const SceneFile& file : facts.files) {

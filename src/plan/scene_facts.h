@@ -45,6 +45,10 @@ class ImageSizes {
   double bytes_ = 0;
 };
 
+// All files in the folder of --glsl, at any depth, in the order of their names; none without --glsl. Throws Error if it
+// is empty.
+std::vector<SceneFile> shaders_of(const cli::DeviceOptions& device);
+
 SceneFacts facts_of(const session::PreparedScene& prepared, const cli::DeviceOptions& device, const ImageSizes& images);
 
 // What is drawn with one set of parameters.

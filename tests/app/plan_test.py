@@ -207,6 +207,21 @@ class Timed(Plans):
             self.assertEqual(*[[[cost["label"], cost["shadow_bytes"]] for cost in list_] for list_ in costs])
         self.assertEqual([model["label"] for model in merged["models"]], ["hard", "pcss"])
 
+    def test_keys_of_generated_casters_depend_on_shaders(self):
+        glsl = self.folder / "glsl"
+        glsl.mkdir()
+
+        def keys(*more):
+            self.make("bench", "--sweep", "casters", "--technique", "hard", *TINY, "--set", "cascades.size=256", *more)
+            return {item["key"] for item in self.document()["items"]}
+
+        seen = keys()
+        for text in ("// one\n", "// two\n"):
+            (glsl / "a.glsl").write_text(text)
+            new = keys("--glsl", glsl)
+            self.assertFalse(seen & new, text)
+            seen |= new
+
     def test_floors_and_whole_frames(self):
         for more in (["--floor", "--technique", "pcss,hard"], ["--whole-frames"]):
             self.make("bench", scene("steps"), *more, *TINY, "--frames", "2", "--set", "cascades.size=256")
