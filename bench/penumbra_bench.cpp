@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
       fmt::print("{}, commit {}\n", cli::version(), penumbra::bench::commit());
       return 0;
     }
-    return penumbra::bench::run("penumbra-bench", arguments, penumbra::stb_decoder(),
+    return penumbra::bench::run("penumbra-bench", arguments, penumbra::stb_decoder,
                                 [](int /*threads*/) { return penumbra::shadow::built_in_registry(); });
   });
 }

@@ -18,7 +18,7 @@ namespace penumbra::app {
 namespace {
 
 int run_bench(const Arguments& arguments) {
-  return bench::run("penumbra bench", arguments, image::image_decoder(),
+  return bench::run("penumbra bench", arguments, image::image_decoder,
                     [](int threads) { return truth::TruthTechnique({.threads = threads}).registry(); });
 }
 

@@ -50,7 +50,7 @@ void write(const Results& results, const std::string& output) {
                                                : html_of(results));
 }
 
-int run(const std::string& name, const cli::Arguments& arguments, const scene::ImageDecoder& decode,
+int run(const std::string& name, const cli::Arguments& arguments, const DecoderOf& decoder,
         const RegistryOf& techniques) {
   CLI::App app(
       "Measure what shadows cost, pass by pass. Shadow maps are drawn anew in every frame unless --set maps.keep=on is "
@@ -78,7 +78,7 @@ int run(const std::string& name, const cli::Arguments& arguments, const scene::I
   session::limit_threads(options);
 
   const std::unique_ptr<gl::Context> context = open_measured(options);
-  Results results = measure(options, decode, registry);
+  Results results = measure(options, decoder(cli::limits_of(options.reading)), registry);
   results.backend = gl::to_string(context->backend());
   for (const std::string& output : options.outputs) write(results, output);
   if (!options.quiet) fmt::print("{}", text_of(results));

@@ -16,14 +16,17 @@ namespace penumbra::bench {
 // The techniques that can be measured, made for that number of threads of a ray tracer (0: one for each core).
 using RegistryOf = std::function<shadow::Registry(int threads)>;
 
+// Decodes images within limits.
+using DecoderOf = std::function<scene::ImageDecoder(const scene::ReadLimits& limits)>;
+
 // The whole command, under the name that it was called by ("penumbra bench"): measures, prints, writes files. Returns
 // the exit code; throws UsageError or Error.
-int run(const std::string& name, const cli::Arguments& arguments, const scene::ImageDecoder& decode,
+int run(const std::string& name, const cli::Arguments& arguments, const DecoderOf& decoder,
         const RegistryOf& techniques);
 
 // What a bench needs to read images and to trace rays.
 struct Tools {
-  scene::ImageDecoder decode;
+  DecoderOf decoder;
   scene::ImageProbe probe;
   RegistryOf techniques;
 };

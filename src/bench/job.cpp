@@ -24,7 +24,7 @@ using io::Json;
 std::size_t points_here(const Options& options, const Tools& tools, const shadow::Registry& registry) {
   if (options.sweep.empty()) return 1;
   const std::unique_ptr<gl::Context> context = open_measured(options);
-  return sweep_of(options, tools.decode, registry).points.size();
+  return sweep_of(options, tools.decoder(cli::limits_of(options.reading)), registry).points.size();
 }
 
 class BenchJob : public plan::Job {
@@ -104,7 +104,8 @@ class BenchJob : public plan::Job {
     Options options = options_;
     options.quiet = true;
     const std::unique_ptr<gl::Context> context = open_measured(options);
-    Results measured = measure(options, tools_.decode, registry_, OnePoint{.index = item, .of = points_});
+    Results measured = measure(options, tools_.decoder(cli::limits_of(options.reading)), registry_,
+                               OnePoint{.index = item, .of = points_});
     measured.backend = gl::to_string(context->backend());
     return result_of(measured);
   }

@@ -96,7 +96,8 @@ Finding figure_4_12(Workbench& bench) {
 Finding figure_4_13(Workbench& bench) {
   constexpr double linear = 0.98;
   const bench::Results results =
-      bench::measure(sweep_options(bench.options()), image::image_decoder(), shadow::built_in_registry());
+      bench::measure(sweep_options(bench.options()), image::image_decoder(cli::limits_of(bench.options().reading)),
+                     shadow::built_in_registry());
   const bench::Model& model = results.models.front();
   Finding finding;
   finding.id = "4.13";

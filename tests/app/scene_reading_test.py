@@ -50,6 +50,19 @@ class SceneReading(TestCase):
         self.assertIn("images[7]", self.refuse("info", path, "--limit", "images=128MiB"))  # damaged: it was decoded
         self.assertIn("2048 x 2048 pixels", self.refuse("info", path, "--limit", "image-pixels=1000000"))
 
+    def test_bench_decodes_images_as_large_as_the_limit_allows(self):
+        path = self.write_scene(images=[{"uri": "0.png"}], textures=[{"source": 0}],
+                                materials=[{"emissiveTexture": {"index": 0}}])
+        side = 8200
+        # Without its rows, so that decoding it begins and ends at once.
+        header = chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 1, 0, 0, 0, 0))
+        (path.parent / "0.png").write_bytes(b"\x89PNG\r\n\x1a\n" + header + chunk(b"IDAT", zlib.compress(b""))
+                                            + chunk(b"IEND", b""))
+        self.assertIn("over the limit", self.refuse("bench", path, *SMALL))
+        error = self.refuse("bench", path, *SMALL, "--limit", "image-pixels=100000000", "--limit", "images=1GiB")
+        self.assertIn("images[0]", error)
+        self.assertNotIn("over the limit", error)
+
     def test_names_of_all_languages_are_quoted(self):
         path = self.write_scene(images=[{"uri": "größe.png"}], textures=[{"source": 0}],
                                 materials=[{"emissiveTexture": {"index": 0}}])

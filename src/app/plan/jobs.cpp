@@ -76,7 +76,7 @@ std::unique_ptr<plan::Job> make_job(const std::string& command, const cli::Argum
   if (command == "truth") return make_truth_job(arguments);
   if (command == "bench") {
     return bench::make_job(arguments, output,
-                           {.decode = image::image_decoder(),
+                           {.decoder = image::image_decoder,
                             .probe = [](const scene::ReadAt& file) { return image::probe(file); },
                             .techniques = [](int threads) { return truth_techniques(threads); }},
                            items);
