@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <ranges>
 #include <utility>
 
 #include "bench/bench.h"
@@ -129,9 +130,7 @@ class BenchJob : public plan::Job {
     }
     whole.version = cli::version();
     whole.commit = commit();
-    cli::Arguments arguments = arguments_;
-    arguments[output_] = files.back().string();
-    whole.command = cli::command_text("penumbra bench", arguments);
+    whole.command = cli::command_text("penumbra bench", arguments_with(files));
     whole.entries = entries_;
     whole.sweep = make_sweep(options_.sweep, {});
     whole.sweep.points.clear();
@@ -145,6 +144,17 @@ class BenchJob : public plan::Job {
   }
 
  private:
+  // As bench itself would be told to write these files.
+  cli::Arguments arguments_with(const std::vector<std::filesystem::path>& files) const {
+    cli::Arguments arguments = arguments_;
+    arguments[output_] = files.front().string();
+    cli::Arguments more;
+    for (const std::filesystem::path& file : files | std::views::drop(1))
+      more.insert(more.end(), {"-o", file.string()});
+    arguments.insert(arguments.begin() + static_cast<std::ptrdiff_t>(output_) + 1, more.begin(), more.end());
+    return arguments;
+  }
+
   void check_costs(const Measured& point) const {
     const std::size_t axes = make_sweep(options_.sweep, {}).axes.size();
     if (point.costs.size() != entries_.size() || point.point.at.size() != axes || point.point.names.size() != axes)

@@ -195,6 +195,8 @@ class Timed(Plans):
         self.assertEqual(first, self.merge())
         merged = json.loads(first["results.json"])
         self.assertTrue(validator("bench").is_valid(merged))
+        for name in first:
+            self.assertIn(f"-o {self.folder / 'merged' / name}", merged["command"])
         # But for times, which are of other frames, it is what one process writes.
         self.succeed("bench", *arguments, "-o", self.folder / "whole.json")
         whole = json.loads((self.folder / "whole.json").read_text())
