@@ -89,11 +89,11 @@ Sweep casters(const SweepLimits& limits) {
 }
 
 Sweep sun_angle() {
-  constexpr std::array angles{0.1F, 0.25F, 0.53F, 1.0F, 2.0F, 4.0F, 8.0F};
+  constexpr std::array angles{0.1, 0.25, 0.53, 1.0, 2.0, 4.0, 8.0};
   Sweep sweep{.axes = {{"sun_angle", "deg"}}};
-  for (const float angle : angles) {
-    Point point = point_of(angle, to_text(ParamValue(angle)));
-    point.values = {{"sun.angle", angle}};
+  for (const double angle : angles) {
+    Point point = point_of(angle, fmt::format("{}", angle));
+    point.values = {{"sun.angle", static_cast<float>(angle)}};
     sweep.points.push_back(std::move(point));
   }
   return sweep;

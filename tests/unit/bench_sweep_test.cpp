@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <set>
@@ -53,6 +54,11 @@ TEST(Sweep, StaysWithinTheDevicesLimits) {
   for (const Point& point : make_sweep("resolution", {.max_texture = 2048}).points) EXPECT_LE(point.size->width, 2048);
   EXPECT_EQ(make_sweep("map_size", {.max_texture = 2048}).points.back().names.front(), "2048");
   EXPECT_EQ(make_sweep("map_size", {.cascades = 1}).points.back().names.front(), "8192");
+}
+
+TEST(Sweep, AnglesAreWrittenAsTheyAreNamed) {
+  for (const Point& point : make_sweep("sun_angle", {}).points)
+    EXPECT_EQ(fmt::format("{}", point.at.front()), point.names.front());
 }
 
 TEST(Sweep, NoSizeComesTwice) {
