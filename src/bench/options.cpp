@@ -32,6 +32,18 @@ void set_for_floor(ParamSet& params, const cli::ShadowOptions& options) {
   }
 }
 
+// Values of presets may be swept, those that are asked for here may not.
+void refuse_swept(const Options& options, const ParamSet& params) {
+  for (const std::string& name : swept_params(options.sweep, params)) {
+    if (name == "sun.angle" && !options.sun_angle.empty())
+      fail_usage("--sweep {} sets {}, so --sun-angle has no place beside it", options.sweep, name);
+    for (const std::string& text : options.assignments) {
+      if (text.starts_with(name + "="))
+        fail_usage("--sweep {} sets {}, so --set {} has no place beside it", options.sweep, name, text);
+    }
+  }
+}
+
 bool is_preset(const std::string& name) { return std::filesystem::path(name).extension() == ".toml"; }
 
 void add_output(Options& options, const std::string& name) {
@@ -126,6 +138,7 @@ std::vector<Entry> entries_of(const Options& options, const shadow::Registry& re
     // The camera stands still, unlike in most uses, so that maps would be drawn in the first frame only.
     if (!cli::is_chosen(one, entry.params, "maps.keep")) entry.params.set("maps.keep", false);
     if (options.floor) set_for_floor(entry.params, one);
+    refuse_swept(options, entry.params);
     if (options.sweep == "cascades" && entry.params.get_word("cascades.fit") != "stable") {
       fail_usage("--sweep cascades can't be measured with cascades.fit={}, which chooses their number and size",
                  entry.params.get_word("cascades.fit"));

@@ -112,6 +112,10 @@ Sweep lights(const SweepLimits& limits) {
   return sweep;
 }
 
+std::string full_name(const std::string& name, const ParamSet& params) {
+  return name.starts_with('.') ? params.get_word("technique") + name : name;
+}
+
 }  // namespace
 
 const std::vector<std::string>& sweep_names() {
@@ -136,10 +140,17 @@ Sweep make_sweep(const std::string& name, const SweepLimits& limits) {
 
 bool is_of_suns(const std::string& sweep) { return sweep == "map_size" || sweep == "cascades" || sweep == "sun_angle"; }
 
+std::vector<std::string> swept_params(const std::string& sweep, const ParamSet& params) {
+  const Sweep made = make_sweep(sweep, {});
+  std::vector<std::string> names;
+  for (const auto& [name, value] : made.points.front().values) names.push_back(full_name(name, params));
+  return names;
+}
+
 ParamSet params_at(const Point& point, const ParamSet& params) {
   ParamSet at = params;
   for (const auto& [name, value] : point.values) {
-    const std::string full = name.starts_with('.') ? params.get_word("technique") + name : name;
+    const std::string full = full_name(name, params);
     if (!at.contains(full))
       cli::fail_usage("--sweep taps: technique '{}' has no parameter {}", params.get_word("technique"), full);
     at.set(full, value);

@@ -54,6 +54,9 @@ bool is_of_suns(const std::string& sweep);
 // `name` is empty or one of sweep_names().
 Sweep make_sweep(const std::string& name, const SweepLimits& limits);
 
+// The parameters that a sweep sets, by their full names.
+std::vector<std::string> swept_params(const std::string& sweep, const ParamSet& params);
+
 // The values of an entry at a point. Throws UsageError if its technique lacks the swept parameter.
 ParamSet params_at(const Point& point, const ParamSet& params);
 
