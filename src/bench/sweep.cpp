@@ -34,7 +34,7 @@ Sweep taps() {
 Sweep resolution(const SweepLimits& limits) {
   constexpr std::array factors{0.25, 0.5, 1.0, 1.5, 2.0, 3.0};
   constexpr double largest_in_software = 1.0;
-  Sweep sweep{.axes = {{"pixels", "million"}}};
+  Sweep sweep{.axes = {{.name = "pixels", .unit = "million", .of_names = "size"}}};
   for (const double factor : factors) {
     const auto scaled = [factor](int side) { return std::max(1, static_cast<int>(std::lround(side * factor))); };
     const cli::Size size{scaled(limits.size.width), scaled(limits.size.height)};
@@ -52,7 +52,7 @@ Sweep resolution(const SweepLimits& limits) {
 
 Sweep map_size(const SweepLimits& limits) {
   constexpr int smallest = 512, largest = 8192, largest_in_software = 4096;
-  Sweep sweep{.axes = {{"map_texels", "million"}}};
+  Sweep sweep{.axes = {{.name = "map_texels", .unit = "million", .of_names = "map side"}}};
   const int last = std::min(limits.software ? largest_in_software : largest, limits.max_texture);
   for (int side = smallest; side <= last; side *= 2) {
     const double texels = static_cast<double>(side) * side * limits.cascades;
@@ -77,7 +77,7 @@ Sweep cascades() {
 
 Sweep casters(const SweepLimits& limits) {
   constexpr long long fewest = 1'000, most = 10'000'000, most_in_software = 1'000'000;
-  Sweep sweep{.axes = {{"caster_triangles", "million", /* log= */ true}}};
+  Sweep sweep{.axes = {{.name = "caster_triangles", .unit = "million", .log = true, .of_names = "caster triangles"}}};
   const long long first = limits.own_triangles > 0 ? limits.own_triangles : fewest;
   for (long long triangles = first; triangles <= (limits.software ? most_in_software : most); triangles *= 10) {
     Point point = point_of(static_cast<double>(triangles) / million, std::to_string(triangles));

@@ -26,6 +26,8 @@ struct Axis {
   std::string name;  // "blocker_taps"; a column of CSV files and a key of JSON, so unlike those of every point
   std::string unit;  // "taps"
   bool log = false;  // plot it on a logarithmic scale
+  // What Point::names say, where that is another quantity ("size" beside pixels).
+  std::string of_names = {};
 };
 
 struct Sweep {

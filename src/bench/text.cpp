@@ -52,7 +52,8 @@ std::string summary_lines(const Measured& point) {
 // One line a point: its place, and the shadow passes of each entry.
 std::string sweep_lines(const Results& results) {
   std::string text;
-  for (const Axis& axis : results.sweep.axes) text += fmt::format("{:>18}", axis.name);
+  for (const Axis& axis : results.sweep.axes)
+    text += fmt::format("{:>18}", axis.of_names.empty() ? axis.name : axis.of_names);
   for (const Entry& entry : results.entries) text += fmt::format("{:>24}", cli::printable(entry.label) + " ms");
   text += "\n";
   for (const Measured& point : results.points) {

@@ -1,5 +1,6 @@
 // What bench writes of results that are made up here.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -64,6 +65,14 @@ TEST(BenchResults, NoAxisIsNamedAsAnotherFigureOfAPoint) {
     EXPECT_EQ(point.at("width"), 64) << sweep;
     EXPECT_EQ(point.at("height"), 36) << sweep;
     EXPECT_EQ(point.at("triangles"), 1002) << sweep;
+  }
+}
+
+TEST(BenchResults, HeadColumnsOfTheTerminalWithWhatTheyShow) {
+  for (const auto& [sweep, head] : {std::pair("map_size", "map side"), std::pair("resolution", "size"),
+                                    std::pair("casters", "caster triangles"), std::pair("cascades", "cascades")}) {
+    const std::string text = text_of(results_of(sweep));
+    EXPECT_NE(text.find(fmt::format("{:>18}{:>24}\n", head, "pcss ms")), std::string::npos) << text;
   }
 }
 
