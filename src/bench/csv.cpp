@@ -33,9 +33,10 @@ class Writer {
   explicit Writer(const Results& results) : results_(results) {
     std::vector<std::string> head{"technique", "label"};
     for (const Axis& axis : results.sweep.axes) head.push_back(axis.name);
-    for (const char* name : {"pass",   "median_ms",    "min_ms", "max_ms", "frames",   "share",  "over_first", "width",
-                             "height", "triangles",    "scene",  "params", "renderer", "driver", "backend",    "timing",
-                             "maps",   "mask_details", "cpu",    "cores",  "version",  "commit"})
+    for (const char* name :
+         {"pass",   "median_ms",    "min_ms", "max_ms", "frames",   "share",   "over_first", "width",
+          "height", "triangles",    "scene",  "params", "renderer", "driver",  "backend",    "timing",
+          "maps",   "mask_details", "cpu",    "cores",  "threads",  "version", "commit"})
       head.emplace_back(name);
     text_ = line_of(head);
   }
@@ -83,6 +84,7 @@ class Writer {
                              std::string(has_floor(point) ? "true" : "false"),
                              results_.machine.cpu,
                              std::to_string(results_.machine.cores),
+                             results_.threads ? std::to_string(*results_.threads) : std::string(),
                              results_.version,
                              results_.commit})
       fields.push_back(std::move(text));

@@ -130,6 +130,7 @@ class BenchJob : public plan::Job {
     }
     whole.version = cli::version();
     whole.commit = commit();
+    whole.threads = options_.threads;
     whole.command = cli::command_text("penumbra bench", arguments_with(files));
     whole.entries = entries_;
     whole.sweep = make_sweep(options_.sweep, {});

@@ -91,6 +91,7 @@ std::string json_of(const Results& results) {
                     {"commit", results.commit},
                     {"command", results.command},
                     {"machine", {{"cpu", results.machine.cpu}, {"cores", results.machine.cores}}},
+                    {"threads", results.threads ? Json(*results.threads) : Json()},
                     {"backend", results.backend},
                     {"device", io::to_json(results.device)},
                     {"timing", results.timing},

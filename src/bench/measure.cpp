@@ -124,6 +124,7 @@ class Bench {
     results_.commit = commit();
     results_.command = options_.command;
     results_.machine = machine();
+    results_.threads = options_.threads;
     results_.device = device_;
     results_.timing = timing();
   }

@@ -33,6 +33,7 @@ struct Model {
 struct Results {
   std::string version, commit, command;
   Machine machine;
+  std::optional<int> threads;  // that --threads allows; absent: one for each core
   gl::DeviceInfo device;
   std::string backend;
   std::string timing;  // "GPU timestamps"

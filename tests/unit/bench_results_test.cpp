@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -66,6 +67,16 @@ TEST(BenchResults, NoAxisIsNamedAsAnotherFigureOfAPoint) {
     EXPECT_EQ(point.at("height"), 36) << sweep;
     EXPECT_EQ(point.at("triangles"), 1002) << sweep;
   }
+}
+
+TEST(BenchResults, TellTheNumberOfThreads) {
+  Results results = results_of("");
+  const std::vector<std::string> columns = first_line(csv_of(results));
+  EXPECT_EQ(std::ranges::count(columns, "threads"), 1);
+  EXPECT_TRUE(nlohmann::json::parse(json_of(results)).at("threads").is_null());
+  results.threads = 97;
+  EXPECT_EQ(nlohmann::json::parse(json_of(results)).at("threads"), 97);
+  EXPECT_NE(csv_of(results).find(",97,"), std::string::npos);
 }
 
 TEST(BenchResults, HeadColumnsOfTheTerminalWithWhatTheyShow) {
