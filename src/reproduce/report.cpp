@@ -27,6 +27,8 @@ std::string scene_name(const Workbench& bench) {
   return std::filesystem::path(bench.options().scene).filename().string();
 }
 
+const char* kind_of(const Finding& finding) { return finding.kind == Finding::Kind::section ? "section" : "figure"; }
+
 std::string heading(const Finding& finding) {
   return fmt::format("{} {}: {}", finding.kind == Finding::Kind::section ? "Section" : "Figure", finding.id,
                      finding.title);
@@ -156,7 +158,7 @@ io::Json json_of(std::span<const Finding> findings, const Workbench& bench) {
                             {"text", quantity.text()}});
     }
     figures.push_back({{"id", finding.id},
-                       {"kind", finding.kind == Finding::Kind::section ? "section" : "figure"},
+                       {"kind", kind_of(finding)},
                        {"title", finding.title},
                        {"claim", finding.claim},
                        {"test", finding.test},
@@ -184,7 +186,8 @@ std::string csv_of(std::span<const Finding> findings) {
   for (const Finding& finding : findings) {
     for (const Quantity& quantity : finding.quantities()) {
       const std::string value = std::isnan(quantity.value) ? "" : fmt::format("{}", quantity.value);
-      text += fmt::format("{},{},{},{}\n", finding.id, io::csv_field(quantity.name), value, quantity.unit);
+      text += fmt::format("{} {},{},{},{}\n", kind_of(finding), finding.id, io::csv_field(quantity.name), value,
+                          quantity.unit);
     }
   }
   return text;

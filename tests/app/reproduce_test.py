@@ -95,7 +95,7 @@ class Reproduce(SchemaTest):
     def test_csv_has_the_figures_of_json(self):
         with open(f"{self.report}/figures.csv", newline="", encoding="utf-8") as file:
             rows = [(row["figure"], row["name"], row["unit"], row["value"]) for row in csv.DictReader(file)]
-        expected = [(figure["id"], measured["name"], measured["unit"], measured["value"])
+        expected = [(f"{figure['kind']} {figure['id']}", measured["name"], measured["unit"], measured["value"])
                     for figure in self.data["figures"] for measured in figure["quantities"]]
         self.assertEqual([row[:3] for row in rows], [row[:3] for row in expected])
         for row, wanted in zip(rows, expected):
