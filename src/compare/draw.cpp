@@ -18,6 +18,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr int usual_warmup = 32;  // with the default history weight, e^-3 of the first frame is left after these
+constexpr int usual_cost_frames = 3;
 
 // Leaves out nested passes: the time of the pass around them includes theirs.
 bool is_shadow_row(const std::string& name) {
@@ -97,8 +98,7 @@ class PartRuns {
     for (int frame = range_.first; frame <= range_.last; ++frame) {
       for (const auto& run : runs) measure(*run, frame);
     }
-    const int again = range_.count() == 1 ? scene_.options.cost_frames : 0;
-    for (int i = 0; i < again; ++i) {
+    for (int i = cost_frames_of(scene_.options); i > 0; --i) {
       for (const auto& run : runs) draw(*run, scene_.path.frame(range_.first, /* again= */ true), /* timed= */ true);
     }
     std::vector<ComparedTechnique> results;
@@ -156,6 +156,11 @@ class PartRuns {
 int warmup_of(const CompareOptions& options, const ParamSet& params) {
   if (options.frames || !params.get_bool("history.reuse")) return 0;
   return options.warmup.value_or(usual_warmup);
+}
+
+int cost_frames_of(const CompareOptions& options) {
+  if (options.no_cost || range_of(options).count() > 1) return 0;
+  return options.cost_frames.value_or(usual_cost_frames);
 }
 
 std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamSet& params, ComparedPictures& last) {

@@ -34,6 +34,9 @@ struct ReferenceFrame {
 // the history has converged.
 int warmup_of(const CompareOptions& options, const ParamSet& params);
 
+// How often a single picture is drawn again, for its cost; 0 for sequences and without costs.
+int cost_frames_of(const CompareOptions& options);
+
 // Draws the reference's frames; `last` receives the pictures of the last one.
 std::vector<ReferenceFrame> draw_reference(const DrawnScene& scene, const ParamSet& params, ComparedPictures& last);
 

@@ -79,7 +79,7 @@ class CompareJob : public plan::Job {
   plan::Estimate estimate(std::size_t item, const plan::SceneFacts& facts) const override {
     const Part part = part_of(item);
     const int frames = options_.frames ? options_.frames->count() : 1;
-    const int again = options_.no_cost || options_.frames ? 0 : options_.cost_frames;
+    const int again = cost_frames_of(options_);
     std::vector<plan::Drawn> drawn{{.params = &values_.reference, .frames = frames}};
     for (std::size_t i = part.first; i < part.first + part.count; ++i) {
       const ParamSet& params = values_.contenders[i];

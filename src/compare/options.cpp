@@ -87,6 +87,8 @@ void check_together(const CompareOptions& o) {
     fail_usage("--technique truth is the reference already; see --reference");
   if (o.samples && o.reference != "truth") fail_usage("--spp is not for --reference {}", o.reference);
   if (o.warmup && o.frames) fail_usage("--warmup is for single pictures: with --frames every frame is measured");
+  if (o.cost_frames && o.frames && o.frames->count() > 1)
+    fail_usage("--cost-frames is for single pictures: with --frames every frame but the first is timed");
   check_orbit(o);
   const int frames = o.frames ? o.frames->count() : 1;
   if (too_large(frames, o.size))

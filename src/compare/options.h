@@ -26,11 +26,11 @@ struct CompareOptions : cli::SceneOptions, cli::ShadowOptions, cli::DeviceOption
   std::string reference = "truth";
   std::optional<int> samples;  // rays a pixel of the truth
 
-  std::optional<double> orbit;  // degrees a frame
-  std::optional<int> cut_at;    // frame at which the orbit jumps
-  std::optional<int> warmup;    // frames of a picture before the one that counts, for techniques with a history
-  int cost_frames = 3;          // of a single picture
-  bool no_cost = false;         // the report then depends on the command alone
+  std::optional<double> orbit;     // degrees a frame
+  std::optional<int> cut_at;       // frame at which the orbit jumps
+  std::optional<int> warmup;       // frames of a picture before the one that counts, for techniques with a history
+  std::optional<int> cost_frames;  // of a single picture
+  bool no_cost = false;            // the report then depends on the command alone
 
   std::string output;  // a folder
   std::vector<cli::GivenOption> given;

@@ -331,6 +331,8 @@ class Refusals(TestCase):
         self.assertIn("--frames", self.refused("--technique", "pcss", "--orbit", "2"))
         self.assertIn("--orbit", self.refused("--technique", "pcss", "--cut-at", "2"))
         self.assertIn("0:9", self.refused("--technique", "pcss", "--frames", "0:9", "--orbit", "2", "--cut-at", "10"))
+        self.assertIn("every frame but the first is timed",
+                      self.refused("--technique", "pcss", "--frames", "0:3", "--cost-frames", "50"))
         self.assertIn("--spp", self.refused("--technique", "pcss", "--reference", "brute_force", "--spp", "64"))
 
     def test_scenes_that_are_not_there(self):
