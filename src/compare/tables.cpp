@@ -79,21 +79,22 @@ std::vector<std::string> terminal_row(const ComparedTechnique& technique) {
           fixed(sequence_value(figures, &metrics::SequenceFigures::flicker), 4)};
 }
 
-Json recoveries(const ComparedFigures& figures) {
+// `first`: the number of the sequence's first frame.
+Json recoveries(const ComparedFigures& figures, std::size_t first) {
   Json list = Json::array();
   if (!figures.sequence) return list;
   for (const metrics::Recovery& recovery : figures.sequence->recoveries) {
-    list.push_back({{"frame", recovery.frame},
+    list.push_back({{"frame", first + recovery.frame},
                     {"recovery_frames", recovery.frames ? Json(*recovery.frames) : Json()},
                     {"static_error", rounded(recovery.static_error)}});
   }
   return list;
 }
 
-Json json_of(const ComparedTechnique& technique) {
+Json json_of(const ComparedTechnique& technique, std::size_t first_frame) {
   Json figures = Json::object(), cost;
   for (const NamedFigure& figure : figures_of(technique.figures)) figures[figure.name] = rounded(figure.value);
-  figures["recoveries"] = recoveries(technique.figures);
+  figures["recoveries"] = recoveries(technique.figures, first_frame);
   figures["not_finite"] = technique.figures.not_finite;
   if (!std::isnan(technique.cost.median)) {
     for (const NamedFigure& figure : costs_of(technique.cost)) cost[figure.name] = rounded(figure.value);
@@ -191,10 +192,11 @@ std::string csv_table(const Comparison& comparison) {
 Json json_of(const Comparison& comparison, const CompareOptions& options, const cli::Arguments& arguments) {
   std::vector<const ParamSet*> params;
   for (const ComparedTechnique& technique : comparison.scenes.front().techniques) params.push_back(technique.params);
+  const auto first_frame = static_cast<std::size_t>(options.frames ? options.frames->first : 0);
   Json scenes = Json::array();
   for (const ComparedScene& scene : comparison.scenes) {
     Json techniques = Json::array();
-    for (const ComparedTechnique& technique : scene.techniques) techniques.push_back(json_of(technique));
+    for (const ComparedTechnique& technique : scene.techniques) techniques.push_back(json_of(technique, first_frame));
     Json json{{"scene", scene.path}, {"camera", camera_of(scene)}, {"lights", lights_of(scene)}};
     json["pixels"] = scene.pixels;
     json["receivers"] = scene.receivers;

@@ -16,7 +16,7 @@ enum class Event : std::uint8_t { none, cut, stop, start };
 
 // How a technique converges after a cut or a stop.
 struct Recovery {
-  std::size_t frame = 0;              // of the event, counted from 0
+  std::size_t frame = 0;              // of the event, counted from the first that was added
   Event event = Event::cut;           // cut or stop
   std::optional<std::size_t> frames;  // frames until it has converged: 0 if the event's frame has; absent if unknown
   double static_error = 0;            // mean |e| of the region after convergence; NaN if unknown

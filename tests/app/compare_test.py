@@ -260,6 +260,8 @@ Visibility visibility(Receiver receiver, Light light) { return Visibility(uintBi
         self.assertEqual([recovery["frame"] for recovery in recoveries], [4])
         _, _, data = self.compare(*arguments, "--orbit", "2")
         self.assertEqual(data["scenes"][0]["techniques"][0]["figures"]["recoveries"][0]["frame"], 3)
+        _, _, data = self.compare(*arguments[:4], "--frames", "10:13", "--orbit", "2")
+        self.assertEqual(data["scenes"][0]["techniques"][0]["figures"]["recoveries"][0]["frame"], 12)
 
     def test_quiet_prints_nothing(self):
         result = self.succeed("compare", POSTS, "-o", self.folder / "x", *SMALL, *SMALL_MAPS, *BRUTE, "--quiet")
