@@ -175,7 +175,7 @@ std::string csv_table(const Comparison& comparison) {
   const ComparedTechnique empty;
   for (const NamedFigure& figure : figures_of(empty.figures)) text += fmt::format(",{}", figure.name);
   for (const NamedFigure& figure : costs_of(empty.cost)) text += fmt::format(",cost_{}", figure.name);
-  text += ",not_finite\n";
+  text += ",cost_frames,not_finite\n";
   for (const ComparedScene& scene : comparison.scenes) {
     for (const ComparedTechnique& technique : scene.techniques) {
       text += fmt::format("{},{},{},{}", io::csv_field(scene.path), io::csv_field(technique.label),
@@ -183,7 +183,8 @@ std::string csv_table(const Comparison& comparison) {
       for (const NamedFigure& figure : figures_of(technique.figures))
         text += fmt::format(",{}", csv_number(figure.value));
       for (const NamedFigure& figure : costs_of(technique.cost)) text += fmt::format(",{}", csv_number(figure.value));
-      text += fmt::format(",{}\n", technique.figures.not_finite);
+      const bool timed = !std::isnan(technique.cost.median);
+      text += fmt::format(",{},{}\n", timed ? std::to_string(technique.cost.frames) : "", technique.figures.not_finite);
     }
   }
   return text;

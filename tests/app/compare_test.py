@@ -48,6 +48,7 @@ class Compare(TestCase):
             for cell, name, decimals in ((cells[1], "cost_median_ms", 1), (cells[3], "psnr_penumbra", 2),
                                          (cells[4], "psnr", 2), (cells[5], "bias", 4), (cells[6], "flip", 4)):
                 self.assertAlmostEqual(float(cell), float(row[name]), delta=0.51 * 10**-decimals, msg=name)
+            self.assertEqual(row["cost_frames"], "3")
             costs = {f"cost_{name}": value for name, value in technique["cost"].items()}
             for name, value in {**technique["figures"], **costs}.items():
                 if name in row:
