@@ -135,13 +135,12 @@ PenumbraWidth penumbra_width(const ImageView& test, const ImageView& reference, 
       }
       const double difference = static_cast<double>(*width) - *expected;
       ++result.measured;
-      result.pixels += std::abs(difference);
       result.relative += std::abs(difference) / *expected;
       result.relative_bias += difference / *expected;
     }
   }
   const auto count = static_cast<double>(result.measured);
-  for (double* sum : {&result.pixels, &result.relative, &result.relative_bias})
+  for (double* sum : {&result.relative, &result.relative_bias})
     *sum = result.measured == 0 ? std::numeric_limits<double>::quiet_NaN() : *sum / count;
   return result;
 }

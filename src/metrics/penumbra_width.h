@@ -13,7 +13,6 @@ namespace penumbra::metrics {
 struct PenumbraWidth {
   double relative = 0;       // mean |w_test − w_reference| / w_reference; 0 at best, NaN where nothing was measured
   double relative_bias = 0;  // mean signed difference; above 0 where the test is too soft
-  double pixels = 0;         // mean |w_test − w_reference|, pixels
   std::size_t measured = 0;  // pixels in the means
   std::size_t lost = 0;      // pixels with a width in the reference but none in the test; excluded from the means
 
