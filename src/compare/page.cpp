@@ -212,6 +212,7 @@ Html command_section(const Comparison& comparison, const cli::Arguments& argumen
 
 std::string frames_text(const CompareOptions& options) {
   if (!options.frames) return "a single picture";
+  if (options.frames->count() == 1) return fmt::format("frame {}", options.frames->first);
   std::string text = fmt::format("{} frames, {:g} a second", options.frames->count(), options.fps);
   if (options.orbit) text += fmt::format(", orbit of {:g}° a frame with a cut", *options.orbit);
   return text;

@@ -76,6 +76,13 @@ class Compare(TestCase):
         self.assertIn("against the ray-traced truth, 64 rays a pixel, or as many as a standard error of 0.1 takes.",
                       self.page("--spp", "8", "--set", "truth.error=0.1"))
 
+    def test_the_page_tells_of_an_orbit_where_there_is_one(self):
+        moving = ("--reference", "brute_force", "--orbit", "5", "--frames")
+        self.assertIn("2 frames, 24 a second, orbit of 5° a frame with a cut", self.page(*moving, "0:1"))
+        still = self.page(*moving, "0:0")
+        self.assertNotIn("orbit of", still)
+        self.assertIn("frame 0<", still)
+
     def test_the_page_speaks_of_the_lights_that_there_are(self):
         def page(*arguments, of):
             return self.page("--spp", "8", *arguments, of=of)
