@@ -6,6 +6,7 @@
 #include "app/names.h"
 #include "cli/progress.h"
 #include "cli/signals.h"
+#include "cli/text.h"
 #include "cli/usage.h"
 #include "image/write.h"
 #include "io/output_file.h"
@@ -120,8 +121,8 @@ int bake_noise(const Arguments& arguments) {
   const auto write = format == ".png" ? write_noise_png : format == ".exr" ? write_noise_exr : write_noise_ranks;
   write(common.output, tile);
   if (common.quiet) return 0;
-  fmt::print("wrote {} ({} noise, {} × {}, power of low over high frequencies", common.output, kind, tile.size,
-             tile.size);
+  fmt::print("wrote {} ({} noise, {} × {}, power of low over high frequencies", cli::printable(common.output), kind,
+             tile.size, tile.size);
   for (int c = 0; c < tile.channels; ++c) fmt::print(" {:.2g}", shadow::low_to_high_power(tile, c));
   fmt::print(")\n");
   return 0;
@@ -147,7 +148,8 @@ int bake_keys(const Arguments& arguments) {
   for (const shadow::SampleKey& key : tile.keys) numbers.insert(numbers.end(), {key.x, key.y, key.order});
   write_numbers(common.output, numbers);
   if (common.quiet) return 0;
-  fmt::print("wrote {} (keys, {} × {}, power of the error's low over high frequencies", common.output, side, side);
+  fmt::print("wrote {} (keys, {} × {}, power of the error's low over high frequencies", cli::printable(common.output),
+             side, side);
   for (const int count : {1, 4, 16}) {
     fmt::print("{} {:.2g} with {} samples", count == 1 ? "" : ",",
                shadow::low_to_high_power(shadow::key_errors(tile, count, {0.6f, 0.8f}, 0.1f), side), count);
@@ -192,7 +194,8 @@ int bake_points(const Arguments& arguments) {
   io::write_text(common.output, format == ".json" ? points_json(points, pattern, seed, disc) : points_csv(points));
   if (common.quiet) return 0;
   fmt::print("wrote {} ({} points, {}; in the square: star discrepancy {:.4f}, least distance on the torus {:.4f})\n",
-             common.output, wanted, pattern, shadow::star_discrepancy(square), shadow::least_toroidal_distance(square));
+             cli::printable(common.output), wanted, pattern, shadow::star_discrepancy(square),
+             shadow::least_toroidal_distance(square));
   return 0;
 }
 

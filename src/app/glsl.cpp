@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "cli/output_names.h"
 #include "cli/signals.h"
+#include "cli/text.h"
 #include "cli/usage.h"
 #include "core/error.h"
 #include "gl/shader_source.h"
@@ -47,7 +48,7 @@ int run_glsl(const Arguments& arguments) {
   std::vector<std::pair<std::string, std::string>> files;
   for (const std::string& name : names) files.emplace_back(name, built_in.read(name).value());
   io::write_files(folder, files);
-  if (!quiet) fmt::print("wrote {} shader files to {}\n", names.size(), output);
+  if (!quiet) fmt::print("wrote {} shader files to {}\n", names.size(), cli::printable(output));
   return 0;
 }
 

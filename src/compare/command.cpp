@@ -7,6 +7,7 @@
 
 #include "cli/no_effect.h"
 #include "cli/signals.h"
+#include "cli/text.h"
 #include "compare/command.h"
 #include "compare/comparison.h"
 #include "compare/options.h"
@@ -33,10 +34,10 @@ void check_files(const CompareOptions& options) {
 
 void print(const Comparison& comparison, const CompareOptions& options) {
   for (const ComparedScene& scene : comparison.scenes) {
-    if (comparison.scenes.size() > 1) fmt::print("{}\n", scene.path);
+    if (comparison.scenes.size() > 1) fmt::print("{}\n", cli::printable(scene.path));
     fmt::print("{}", terminal_table(scene));
   }
-  fmt::print("wrote {}\n", options.page().string());
+  fmt::print("wrote {}\n", cli::printable(options.page().string()));
 }
 
 void warn_of_values(const Comparison& comparison) {

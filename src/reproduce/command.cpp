@@ -7,6 +7,7 @@
 #include "cli/output_names.h"
 #include "cli/progress.h"
 #include "cli/signals.h"
+#include "cli/text.h"
 #include "io/output_file.h"
 #include "reproduce/command.h"
 #include "reproduce/figures.h"
@@ -121,7 +122,7 @@ int run(const cli::Arguments& arguments) {
   io::write_text(options.json(), io::text_of(json_of(findings, bench)));
   io::write_text(options.csv(), csv_of(findings));
   io::write_text(options.page(), report::to_text(page_of(findings, bench, arguments)));
-  if (!options.quiet) fmt::print("{}wrote {}\n", text_of(findings, options), options.page().string());
+  if (!options.quiet) fmt::print("{}wrote {}\n", text_of(findings, options), cli::printable(options.page().string()));
   return 0;
 }
 

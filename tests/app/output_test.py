@@ -53,6 +53,17 @@ class Output(TestCase):
         self.assertRegex(result.stdout, r"x\.exr with the AOVs color, shadow, depth \(")
         self.assertEqual(len(read_exr_header(self.folder / "x.exr")["channels"]), 5)
 
+    def test_summaries_send_no_escape_sequences(self):
+        drawn = (POSTS, *SMALL, *SMALL_MAPS)
+        for name, command in (("a\x1b[31m.png", ("render", *drawn, "-o")),
+                              ("b\x1b[31m.png", ("truth", POSTS, *SMALL, "--spp", "8", "--no-cache", "-o")),
+                              ("c\x1b[31m.csv", ("bake", "points", "--count", "4", "-o")), ("d\x1b[31m", ("glsl",)),
+                              ("e\x1b[31m", ("compare", *drawn, "--no-cost", "--technique", "hard", "--reference",
+                                             "brute_force", "-o"))):
+            said = self.succeed(*command, self.folder / name).stdout
+            self.assertIn(name.replace("\x1b", " "), said)
+            self.assertNotIn("\x1b", said)
+
     def test_missing_folders_are_made(self):
         self.draw("a/b/x.png")
         self.assertEqual(self.files(), ["a", "a/b", "a/b/x.png"])

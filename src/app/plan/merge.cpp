@@ -64,7 +64,7 @@ int merge(const MergeOptions& options) {
   const std::vector<fs::path> written = planned.job->merge(read, options.output);
   if (options.quiet) return 0;
   const std::string more = written.size() > 1 ? fmt::format(" and {} more", written.size() - 1) : "";
-  fmt::print("wrote {}{}\n", written.front().string(), more);
+  fmt::print("wrote {}{}\n", cli::printable(written.front().string()), more);
   return 0;
 }
 

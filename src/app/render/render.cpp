@@ -11,6 +11,7 @@
 #include "app/render/options.h"
 #include "cli/output_names.h"
 #include "cli/signals.h"
+#include "cli/text.h"
 #include "image/read.h"
 #include "io/output_file.h"
 #include "session/prepared_scene.h"
@@ -71,7 +72,8 @@ void render_files(RenderOptions options) {
   const std::chrono::duration<double> elapsed = Clock::now() - start;
   if (!options.quiet)
     // Not by fmt::print, which throws where standard error is closed or full.
-    std::fputs((summary(options, params, names, range, elapsed.count()) + "\n").c_str(), summary_stream(options));
+    std::fputs((cli::printable(summary(options, params, names, range, elapsed.count())) + "\n").c_str(),
+               summary_stream(options));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "cli/output_names.h"
 #include "cli/progress.h"
 #include "cli/signals.h"
+#include "cli/text.h"
 #include "image/read.h"
 #include "io/output_file.h"
 #include "session/prepared_scene.h"
@@ -119,7 +120,7 @@ void trace_files(TruthOptions options) {
     last_line = summary(names.picture(frame), options.size, truth, lights);
   }
   progress.reset();
-  if (!options.quiet) fmt::print("{}\n", last_line);
+  if (!options.quiet) fmt::print("{}\n", cli::printable(last_line));
 }
 
 }  // namespace
