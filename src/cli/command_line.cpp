@@ -14,6 +14,7 @@
 
 #include "cli/help_groups.h"
 #include "cli/help_reader.h"
+#include "cli/progress.h"
 #include "cli/resources.h"
 #include "cli/signals.h"
 #include "cli/text.h"
@@ -60,7 +61,8 @@ void log_from(const std::string& name) {
     if (static_cast<int>(level) < least) return;
     static constexpr const char* labels[] = {"debug", "info", "warning", "error"};
     // Not by fmt::print, which throws where stderr is closed or full.
-    std::fputs(fmt::format("{}: {}\n", labels[static_cast<int>(level)], printable(std::string(message))).c_str(),
+    std::fputs(fmt::format("{}{}: {}\n", line_start(), labels[static_cast<int>(level)], printable(std::string(message)))
+                   .c_str(),
                stderr);
   });
 }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 
 namespace penumbra::cli {
 
@@ -26,5 +27,9 @@ class Progress {
   bool shown_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+// What any other line on stderr begins with: it removes the line of progress that is shown there; empty if there is
+// none.
+std::string_view line_start();
 
 }  // namespace penumbra::cli
