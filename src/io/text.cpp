@@ -2,16 +2,20 @@
 
 #include <algorithm>
 
+#include "core/utf8.h"
+
 namespace penumbra::io {
 
 std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
+  const bool quoted = text.find_first_of(",\"\r\n") != std::string_view::npos;
+  std::string field;
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (text[0] == '"') field += '"';
+    field += length == 0 ? "\xef\xbf\xbd" : text.substr(0, length);
+    text.remove_prefix(std::max(length, std::size_t{1}));
   }
-  return quoted + '"';
+  return quoted ? '"' + field + '"' : field;
 }
 
 std::vector<std::string> split(std::string_view text, char separator) {

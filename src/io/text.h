@@ -6,7 +6,8 @@
 
 namespace penumbra::io {
 
-// A field of comma-separated values (RFC 4180), quoted if it contains a comma, a quote or a line break.
+// A field of comma-separated values (RFC 4180), quoted if it contains a comma, a quote or a line break. Bytes that
+// are not UTF-8 become U+FFFD.
 std::string csv_field(std::string_view text);
 
 // The parts of `text` between the separators, in order: one part more than there are separators; parts may be empty.

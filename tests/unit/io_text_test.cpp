@@ -14,6 +14,15 @@ TEST(CsvField, IsQuotedOnlyWhereItMustBe) {
   EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
 }
 
+TEST(CsvField, IsUtf8) {
+  EXPECT_EQ(csv_field("größe"), "größe");
+  EXPECT_EQ(csv_field("gr\xf6\xdf"
+                      "e"),
+            "gr\xef\xbf\xbd\xef\xbf\xbd"
+            "e");
+  EXPECT_EQ(csv_field("\xf6,\"\xc3"), "\"\xef\xbf\xbd,\"\"\xef\xbf\xbd\"");
+}
+
 TEST(Split, KeepsWhatIsEmpty) {
   using Parts = std::vector<std::string>;
   EXPECT_EQ(split("", ','), Parts{""});
