@@ -38,19 +38,14 @@ double luminance(const Rgb& colour) {
 // The range of the values, and where a value is in it.
 struct Range {
   double low, high;
-  bool log;
 
-  double share(double value) const {
-    const auto measure = [this](double v) { return log ? std::log(v) : v; };
-    return high > low ? (measure(value) - measure(low)) / (measure(high) - measure(low)) : 0.5;
-  }
+  double share(double value) const { return high > low ? (value - low) / (high - low) : 0.5; }
 };
 
 Range range_of(const HeatMap& map) {
-  Range range{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest(), map.log};
+  Range range{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
   for (const double value : map.values) {
     if (!std::isfinite(value)) continue;
-    assert(!map.log || value > 0);
     range.low = std::min(range.low, value);
     range.high = std::max(range.high, value);
   }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double dot_radius = 3.2;
 constexpr double name_gap = 10;
-constexpr int colours = 8;  // .line-0 to .line-7 in page.css
+constexpr std::size_t colours = 8;  // .line-0 to .line-7 in page.css
 
 // The label of a line, at the height of the line's end.
 struct Name {
@@ -29,12 +29,7 @@ void part(std::vector<Name>& names, const Box& area) {
   for (std::size_t i = names.size(); i-- > 0; limit -= step) names[i].y = std::min(names[i].y, limit);
 }
 
-std::string line_class(const LinePlot& plot, std::size_t index) {
-  if (plot.lines[index].guide) return "guide";
-  const auto before = plot.lines.begin() + static_cast<std::ptrdiff_t>(index);
-  return fmt::format("line-{}",
-                     std::count_if(plot.lines.begin(), before, [](const Line& l) { return !l.guide; }) % colours);
-}
+std::string line_class(std::size_t index) { return fmt::format("line-{}", index % colours); }
 
 std::string dot_svg(const LinePlot& plot, const Line& line, const Point& point, double x, double y) {
   const auto value = [](const Axis& axis, double v) {
@@ -57,12 +52,12 @@ std::string line_svg(const LinePlot& plot, const PlotFrame& frame, std::size_t i
     }
     const double x = frame.x().at(point.x), y = frame.y().at(point.y);
     path += fmt::format("{}{:.1f} {:.1f}", drawing ? 'L' : 'M', x, y);
-    if (!line.guide) dots += dot_svg(plot, line, point, x, y);
+    dots += dot_svg(plot, line, point, x, y);
     drawing = true;
     end = y;
   }
   if (path.empty()) return "";
-  return fmt::format("<g class='{}'><path d='{}'/>{}</g>", line_class(plot, index), path, dots);
+  return fmt::format("<g class='{}'><path d='{}'/>{}</g>", line_class(index), path, dots);
 }
 
 }  // namespace
@@ -90,7 +85,7 @@ Html to_html(const LinePlot& plot) {
   }
   part(names, frame.area());
   for (const Name& name : names)
-    drawn += fmt::format("<text class='label name {}' x='{:.1f}' y='{:.1f}'>{}</text>", line_class(plot, name.line),
+    drawn += fmt::format("<text class='label name {}' x='{:.1f}' y='{:.1f}'>{}</text>", line_class(name.line),
                          frame.area().right + name_gap, name.y + 4.5, escape(plot.lines[name.line].label));
   return Html(frame.svg(drawn));
 }

@@ -49,11 +49,11 @@ Html picture(const Figure& figure) {
 namespace {
 
 // A legend whose labels contain "{}" where the script writes the range.
-Html ranged_legend(const Legend& legend, const std::string& range) {
+Html legend_of(const Legend& legend, const std::string& range) {
   std::string colours, labels;
   for (const std::string& colour : legend.colours) colours += fmt::format(",{}", escape(colour));
   for (const std::string& text : legend.labels) {
-    const std::size_t place = range.empty() ? text.npos : text.find("{}");
+    const std::size_t place = text.find("{}");
     std::string shown = text;
     if (place != text.npos) shown.replace(place, 2, range);
     const std::string pattern = place == text.npos ? "" : fmt::format(" data-label='{}'", escape(text));
@@ -67,8 +67,6 @@ Html ranged_legend(const Legend& legend, const std::string& range) {
 }
 
 }  // namespace
-
-Html legend(const Legend& legend) { return ranged_legend(legend, ""); }
 
 std::uint8_t error_code(float error) {
   if (std::isnan(error)) return 0;
@@ -84,7 +82,7 @@ Html error_map(const ErrorMap& map) {
                   "<div class='error-map' data-range='{}' data-colours='{}' data-unmeasured='{}' data-codes='{}'>",
                   range, escape(colours), escape(map.unmeasured), data_uri(map.codes)))
       .add(picture(map.figure))
-      .add(ranged_legend(map.legend, range))
+      .add(legend_of(map.legend, range))
       .add("</div>\n");
 }
 

@@ -30,7 +30,6 @@ struct Legend {
   std::vector<std::string> colours;  // from low to high at even steps, "#rrggbb"
   std::vector<std::string> labels;   // at even steps under the bar, at least the two ends, with the unit
 };
-Html legend(const Legend& legend);
 
 // Errors in colours, whose range the reader can choose for all maps of a page.
 struct ErrorMap {

@@ -37,7 +37,6 @@ Html to_html(const ScatterPlot& plot);
 struct Line {
   std::string label;
   std::vector<Point> points;  // in order of rising x; a point that an axis can't show interrupts the line
-  bool guide = false;         // dashed and grey, without dots: a reference slope or limit
 };
 
 // Lines with their names at their ends.

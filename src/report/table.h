@@ -42,7 +42,6 @@ struct HeatMap {
   std::vector<double> values;  // row by row; values that are not finite are shown as "–"
   std::string unit;
   int decimals = 2;
-  bool log = false;  // colours follow the logarithm; values must then be positive
 };
 Html to_html(const HeatMap& map);
 
