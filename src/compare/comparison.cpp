@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <functional>
-#include <glm/trigonometric.hpp>
 
 #include "cli/progress.h"
 #include "compare/drawing.h"
@@ -12,12 +10,6 @@
 #include "compare/scene_names.h"
 
 namespace penumbra::compare {
-
-Angles angles_of(const glm::vec3& to_light) {
-  const glm::dvec3 v(to_light);
-  return {.azimuth = glm::degrees(std::atan2(v.x, v.z)),
-          .elevation = glm::degrees(std::atan2(v.y, std::hypot(v.x, v.z)))};
-}
 
 std::string not_finite_text(const ComparedTechnique& technique) {
   return fmt::format("'{}' gives values that are not finite: {}; each counts as an error of 1", technique.label,

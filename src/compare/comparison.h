@@ -59,13 +59,6 @@ struct ComparedScene {
   std::vector<ComparedTechnique> techniques;
 };
 
-// A direction in the form that --sun takes, in degrees.
-struct Angles {
-  double azimuth = 0;    // from +Z towards +X
-  double elevation = 0;  // over the horizon
-};
-Angles angles_of(const glm::vec3& to_light);
-
 // How many of a technique's values are not finite, in words.
 std::string not_finite_text(const ComparedTechnique& technique);
 

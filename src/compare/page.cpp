@@ -181,7 +181,7 @@ Html params_section(const Comparison& comparison) {
 std::string point_text(const glm::vec3& v) { return fmt::format("{:.6g},{:.6g},{:.6g}", v.x, v.y, v.z); }
 
 std::string light_text(const render::SunLight& light) {
-  const Angles sun = angles_of(light.to_light);
+  const render::Angles sun = render::angles_of(light.to_light);
   return fmt::format("--sun={:.6g},{:.6g}", sun.azimuth, sun.elevation);
 }
 

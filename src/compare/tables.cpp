@@ -126,7 +126,7 @@ Json camera_of(const ComparedScene& scene) {
 
 // A compared light.
 Json json_of(const render::SunLight& sun) {
-  const Angles angles = angles_of(sun.to_light);
+  const render::Angles angles = render::angles_of(sun.to_light);
   return {{"kind", "sun"},
           {"to_light", json_of(sun.to_light)},
           {"azimuth_degrees", rounded(angles.azimuth)},

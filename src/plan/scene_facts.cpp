@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/trigonometric.hpp>
 #include <iterator>
 #include <system_error>
 #include <variant>
@@ -27,11 +26,12 @@ Json json_of(const glm::vec3& v) {
   return list;
 }
 
-double degrees(double x, double y) { return std::round(glm::degrees(std::atan2(x, y)) * 1e4) / 1e4; }
+double rounded_degrees(double degrees) { return std::round(degrees * 1e4) / 1e4; }
 
 Json json_of(const render::SunLight& sun) {
-  const glm::dvec3 v(sun.to_light);
-  return {{"azimuth_degrees", degrees(v.x, v.z)}, {"elevation_degrees", degrees(v.y, std::hypot(v.x, v.z))}};
+  const render::Angles angles = render::angles_of(sun.to_light);
+  return {{"azimuth_degrees", rounded_degrees(angles.azimuth)},
+          {"elevation_degrees", rounded_degrees(angles.elevation)}};
 }
 
 Json json_of(const render::LampLight& lamp) { return {{"position", json_of(lamp.position)}}; }

@@ -43,6 +43,12 @@ glm::mat4 projection_of(const Camera& camera, float aspect) {
   return m;
 }
 
+Angles angles_of(const glm::vec3& to_light) {
+  const glm::dvec3 v(to_light);
+  return {.azimuth = glm::degrees(std::atan2(v.x, v.z)),
+          .elevation = glm::degrees(std::atan2(v.y, std::hypot(v.x, v.z)))};
+}
+
 glm::vec3 position_of(const Camera& camera) {
   // The view matrix is rigid, so the inverse of its rotation is the transpose.
   return -(glm::transpose(glm::mat3(camera.view)) * glm::vec3(camera.view[3]));

@@ -35,6 +35,13 @@ struct SunLight {
   bool operator==(const SunLight&) const = default;
 };
 
+// A direction in the form that --sun takes, in degrees.
+struct Angles {
+  double azimuth = 0;    // from +Z towards +X
+  double elevation = 0;  // over the horizon
+};
+Angles angles_of(const glm::vec3& to_light);
+
 // A spot or a point lamp with what it emits (KHR_lights_punctual); shadow::Lamp is its part that shadows depend on. Its
 // light falls off with the square of the distance.
 struct LampLight {
