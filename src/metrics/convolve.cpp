@@ -61,4 +61,9 @@ Plane convolve(const Plane& plane, const Kernel& across, const Kernel& down, Bor
   return plane.pixels.empty() ? plane : convolve_columns(convolve_rows(plane, across, border), down, border);
 }
 
+Plane blurred(const Plane& plane, double sigma, Border border) {
+  const Kernel kernel = gaussian(sigma, static_cast<int>(std::ceil(3 * sigma)));
+  return convolve(plane, kernel, kernel, border);
+}
+
 }  // namespace penumbra::metrics

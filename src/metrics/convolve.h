@@ -27,6 +27,9 @@ using Kernel = std::vector<float>;
 // A Gaussian kernel that sums to 1; `sigma` in pixels.
 Kernel gaussian(double sigma, int radius);
 
+// Blurred by a Gaussian.
+Plane blurred(const Plane& plane, double sigma, Border border);
+
 // Separable correlation: with `across` along rows, then with `down` along columns.
 Plane convolve(const Plane& plane, const Kernel& across, const Kernel& down, Border border);
 

@@ -80,15 +80,14 @@ struct Line {
 
 // The reference, smoothed over its receivers; 0 far from all of them.
 Plane smoothed(const ImageView& picture, Receivers receivers) {
-  const Kernel kernel = gaussian(smoothing, static_cast<int>(std::ceil(3 * smoothing)));
   Plane values(picture.width, picture.height), weights(picture.width, picture.height);
   for (std::size_t i = 0; i < values.pixels.size(); ++i) {
     if (!is_receiver(receivers, i)) continue;
     values.pixels[i] = picture.pixels[i];
     weights.pixels[i] = 1.0f;
   }
-  values = convolve(values, kernel, kernel, Border::zero);
-  weights = convolve(weights, kernel, kernel, Border::zero);
+  values = blurred(values, smoothing, Border::zero);
+  weights = blurred(weights, smoothing, Border::zero);
   for (std::size_t i = 0; i < values.pixels.size(); ++i)
     if (weights.pixels[i] > 0) values.pixels[i] /= weights.pixels[i];
   return values;

@@ -1,6 +1,5 @@
 // Figures 2.11 and 2.12: noise that differs from pixel to pixel, and pictures that are dithered with it and then
 // blurred.
-#include <cmath>
 
 #include "metrics/convolve.h"
 #include "metrics/error_figures.h"
@@ -64,8 +63,7 @@ metrics::Plane dithered(const metrics::Plane& plane, const shadow::NoiseTile& no
 }
 
 metrics::Plane blurred(const metrics::Plane& plane) {
-  const metrics::Kernel kernel = metrics::gaussian(blur_sigma, static_cast<int>(std::ceil(3 * blur_sigma)));
-  return metrics::convolve(plane, kernel, kernel, metrics::Border::nearest);
+  return metrics::blurred(plane, blur_sigma, metrics::Border::nearest);
 }
 
 Quantity psnr(const std::string& name, const metrics::Plane& test, const metrics::Plane& reference) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <utility>
 
 #include "bench/times.h"
@@ -21,11 +20,6 @@ namespace penumbra::reproduce {
 namespace {
 
 constexpr double blur_sigma = 1.5;  // pixels
-
-metrics::Plane blurred(const metrics::Plane& plane) {
-  const metrics::Kernel kernel = metrics::gaussian(blur_sigma, static_cast<int>(std::ceil(3 * blur_sigma)));
-  return metrics::convolve(plane, kernel, kernel, metrics::Border::zero);
-}
 
 session::PreparedScene load_scene(const Options& options) {
   session::PreparedScene prepared = session::load_scene(options, image::image_decoder(cli::limits_of(options.reading)));
@@ -119,7 +113,8 @@ double Workbench::psnr_blurred(const std::vector<float>& visibility) const {
     errors.pixels[i] = metrics::signed_error(visibility[i], pcss_picture_[i]);
     weights.pixels[i] = 1;
   }
-  const metrics::Plane sums = blurred(errors), shares = blurred(weights);
+  const metrics::Plane sums = metrics::blurred(errors, blur_sigma, metrics::Border::zero),
+                       shares = metrics::blurred(weights, blur_sigma, metrics::Border::zero);
   double squared = 0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < visibility.size(); ++i) {
