@@ -48,6 +48,15 @@ void PassTimes::append(const std::vector<gl::Timers::Row>& rows, const std::vect
              cpu_times.end());
 }
 
+PassTimes PassTimes::of_frames(const std::vector<gl::Timers::Row>& rows, std::span<const std::size_t> indices) {
+  PassTimes times;
+  for (const gl::Timers::Row& row : rows) {
+    std::vector<double>& picked = row.name == "frame" ? times.frames : times_of(times, row.name);
+    for (const std::size_t index : indices) picked.push_back(row.milliseconds[index]);
+  }
+  return times;
+}
+
 std::vector<double> PassTimes::of(std::string_view pass) const {
   for (const gl::Timers::Row& row : passes) {
     if (row.name == pass) return row.milliseconds;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,8 @@ struct PassTimes {
 
   // Appends the last `count` frames of a device's timers: the rows of passes and the CPU times.
   void append(const std::vector<gl::Timers::Row>& rows, const std::vector<double>& cpu_times, std::size_t count);
+  // Of single frames of a device's timers, by their indices; without CPU times.
+  static PassTimes of_frames(const std::vector<gl::Timers::Row>& rows, std::span<const std::size_t> indices);
   // The time of one pass in every frame; zeros if there is no pass of that name.
   std::vector<double> of(std::string_view pass) const;
   // For every frame, the sum of the passes that draw the shadow mask, and the sum of all passes. A nested pass is part

@@ -20,19 +20,9 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr int usual_warmup = 32;  // with the default history weight, e^-3 of the first frame is left after these
 constexpr int usual_cost_frames = 3;
 
-// Leaves out nested passes: the time of the pass around them includes theirs.
-bool is_shadow_row(const std::string& name) {
-  return name != "frame" && name.find('/') == std::string::npos && bench::is_shadow_pass(name);
-}
-
 // The cost over `frames`, which are indices of the device's timed frames.
 ShadowCost shadow_cost(gl::Timers& timers, const std::vector<std::size_t>& frames) {
-  std::vector<double> sums(frames.size(), 0.0);
-  for (const gl::Timers::Row& row : timers.rows()) {
-    if (!is_shadow_row(row.name)) continue;
-    for (std::size_t i = 0; i < frames.size(); ++i) sums[i] += row.milliseconds[frames[i]];
-  }
-  const bench::Summary summary = bench::summary_of(std::move(sums));
+  const bench::Summary summary = bench::summary_of(bench::PassTimes::of_frames(timers.rows(), frames).shadow_sums());
   return {summary.median, summary.min, summary.max, summary.count};
 }
 

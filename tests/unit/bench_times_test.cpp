@@ -35,6 +35,13 @@ TEST(PassTimes, CountAPassWithinAnotherOnce) {
   EXPECT_EQ(times.shadow_sums(), (std::vector<double>{5, 7}));
 }
 
+TEST(PassTimes, OfChosenFrames) {
+  const std::vector<std::size_t> indices{1, 3};
+  const PassTimes times = PassTimes::of_frames(rows(4), indices);
+  EXPECT_EQ(times.frames, (std::vector<double>{50, 10}));
+  EXPECT_EQ(times.shadow_sums(), (std::vector<double>{27, 7}));
+}
+
 // A pass that only one visit drew has zeros for the frames of the others, so that frames stay in step.
 TEST(PassTimes, OfSeveralVisitsStayInStep) {
   PassTimes times = times_of(4);
