@@ -17,6 +17,7 @@
 #include "core/error.h"
 #include "gl/context.h"
 #include "image/read.h"
+#include "io/report.h"
 #include "render/setup.h"
 #include "scene/gltf.h"
 #include "scene/gpu_scene.h"
@@ -92,11 +93,6 @@ void draw(Stage& stage, const Way& way) {
                                        .present_is_drawn = way.second_target});
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.at(values.size() / 2);
-}
-
 int run(const std::filesystem::path& path, int frames) {
   const auto context = gl::make_context("auto");
   const auto timing = gl::device_info().software ? gl::Timers::Mode::finish : gl::Timers::Mode::query;
@@ -112,7 +108,7 @@ int run(const std::filesystem::path& path, int frames) {
   };
   std::vector<std::unique_ptr<Case>> cases;
   for (size_t i = 0; i < ways.size(); ++i) cases.push_back(std::make_unique<Case>(timing, scene));
-  for (int frame = 0; frame < frames; ++frame) {
+  for (int frame = 0; frame <= frames; ++frame) {  // the first compiles shaders and does not count
     for (size_t i = 0; i < ways.size(); ++i) {
       Case& own = *cases[i];
       own.scene.pose(own.device, 0.5 + (frame - 1) / 60.0, 0.5 + frame / 60.0);
@@ -131,9 +127,8 @@ int run(const std::filesystem::path& path, int frames) {
   for (size_t i = 0; i < ways.size(); ++i) {
     const gl::Device& device = cases[i]->device;
     fmt::print("{}\n", ways[i].name);
-    for (const gl::Timers::Row& row : cases[i]->device.timers.rows()) {
-      fmt::print("  {:<20} {:8.2f} ms\n", row.name, median(row.milliseconds));
-    }
+    for (const io::PassCost& cost : io::pass_costs(cases[i]->device.timers.rows(), static_cast<std::size_t>(frames)))
+      fmt::print("  {:<20} {:8.2f} ms\n", cost.name, cost.median);
     if (ways[i].none) continue;
     const std::size_t bytes = device.target_bytes("maximum") + device.target_bytes("average");
     fmt::print("  memory, share of the shadow map's {:.1f} %\n",

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
+
+#include "io/median.h"
 
 namespace penumbra::bench {
 
@@ -10,10 +13,9 @@ double rounded(double value) { return std::round(value * 1e4) / 1e4; }
 
 Summary summary_of(std::vector<double> values) {
   if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  const double median = values.size() % 2 != 0 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-  return {.median = median, .min = values.front(), .max = values.back(), .count = values.size()};
+  const auto [min, max] = std::ranges::minmax(values);
+  const std::size_t count = values.size();
+  return {.median = io::median_of(std::move(values)), .min = min, .max = max, .count = count};
 }
 
 double paired_ratio(std::span<const double> values, std::span<const double> to) {

@@ -15,7 +15,7 @@ struct Summary {
   std::size_t count = 0;
 };
 
-// The median of an even number of values is the mean of the middle two.
+// The median as io::median_of() gives it.
 Summary summary_of(std::vector<double> values);
 
 // The median of values[i] / to[i]. If both are measured alternately, slow changes of the machine's speed cancel out.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/median.h"
+
 namespace penumbra::io {
 
 Json document(std::string_view kind, int version, const Json& body) {
@@ -20,12 +22,6 @@ Json json_number(double value) {
 }
 
 namespace {
-
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 != 0 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 // The shortest digits of the float: 0.53f becomes 0.53 and not the double 0.5299999713897705.
 Json number(float value) { return std::stod(to_text(ParamValue(value))); }
