@@ -7,7 +7,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { Peer } from './browser.mjs';
 import { lineOf } from './failure.mjs';
-import { PEERS } from './options.mjs';
+import { PEERS, isPresetFile, labelOf } from './options.mjs';
 import { writeGrey } from './png.mjs';
 import { median } from './statistics.mjs';
 import { visibilityOf } from './visibility.mjs';
@@ -80,7 +80,7 @@ export class PenumbraContender {
     const { blocker, filter } = options.taps;
     Object.assign(this, { penumbra, scene, maps, options, settings });
     this.rows = options.techniques.map((name) =>
-      newRow('Penumbra', name === 'pcss' ? `pcss ${blocker}/${filter}` : name, maps));
+      newRow('Penumbra', name === 'pcss' ? `pcss ${blocker}/${filter}` : labelOf(name), maps));
   }
 
   // A preset file: the taps are those of pcss alone, not those of presets that are built on it. A peer's blocker tap
@@ -102,14 +102,14 @@ export class PenumbraContender {
   async judge(sceneArgs, folder, reference, pictures) {
     for (const [i, name] of this.options.techniques.entries()) {
       const file = path.join(folder, `shadow_${this.maps}.exr`), technique = this.technique(name, folder);
-      const chosen = technique === name ? ['--technique', name] : ['--preset', technique];
+      const chosen = [isPresetFile(technique) ? '--preset' : '--technique', technique];
       const draw = (output, ...more) => this.penumbra.run('render', this.scene, '-o', output, ...sceneArgs, ...chosen,
         ...this.parameters(), ...more, '--quiet');
       if (reference) {
         await draw(file, '--aov', 'shadow');
         this.rows[i].figures = await this.penumbra.figures(file, reference);
       }
-      if (pictures) await draw(`${pictures}_penumbra_${name}_${this.maps}.png`, '--aov', 'color,shadow');
+      if (pictures) await draw(`${pictures}_penumbra_${labelOf(name)}_${this.maps}.png`, '--aov', 'color,shadow');
     }
   }
 

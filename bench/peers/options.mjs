@@ -1,5 +1,6 @@
 // The command line.
 import fs from 'node:fs';
+import path from 'node:path';
 import { parseArgs } from 'node:util';
 import { Failure } from './failure.mjs';
 
@@ -18,7 +19,7 @@ usage: bench/peers/run.sh SCENE... [OPTIONS]
   --frames N          Frames that are measured of each renderer in each round (5)
   --rounds N          Rounds; in each, all renderers take their turn (3)
   --peers NAME,...    three, babylon, playcanvas (all)
-  --techniques T,...  Penumbra's techniques (pcss)
+  --techniques T,...  Penumbra's techniques, presets or preset files, .toml (pcss)
   --cascades N,...    Numbers of shadow maps, 1 to 4, each measured with every renderer that has it (4,1)
   --map-size N        Width of a map in texels (2048)
   --taps B/F          Blocker taps of one texel each, and filter taps (16/16)
@@ -75,6 +76,21 @@ function number(name, text, least, most) {
 
 const unique = (list) => [...new Set(list)];
 
+export const isPresetFile = (technique) => path.extname(technique) === '.toml';
+
+// What a technique is called in tables and names of files.
+export const labelOf = (technique) => (isPresetFile(technique) ? path.basename(technique, '.toml') : technique);
+
+function techniques(text) {
+  const names = unique(text.split(',').filter(Boolean)), labels = names.map(labelOf);
+  const twice = labels.find((label, i) => labels.indexOf(label) < i);
+  if (twice) throw wrong(`--techniques has '${twice}' twice`);
+  if (labels.includes('none')) throw wrong("--techniques: 'none' is measured beside all others");
+  const missing = names.find((name) => isPresetFile(name) && !fs.existsSync(name));
+  if (missing) throw new Failure(`${missing}: no such file`);
+  return names;
+}
+
 export function parse(args) {
   const options = Object.fromEntries(Object.entries(STRINGS).map(([name, value]) =>
     [name, { type: 'string', ...(value === undefined ? {} : { default: value }) }]));
@@ -97,7 +113,7 @@ export function parse(args) {
     frames: whole('frames', values.frames, 1, 10000),
     rounds: whole('rounds', values.rounds, 1, 1000),
     peers: unique(values.peers.split(',').filter(Boolean).map((name) => chosen('peers', name, Object.keys(PEERS)))),
-    techniques: unique(values.techniques.split(',').filter(Boolean)),
+    techniques: techniques(values.techniques),
     cascades: unique(values.cascades.split(',').map((text) => whole('cascades', text, 1, 4))),
     mapSize: whole('map-size', values['map-size'], 16, 8192),
     taps: { blocker, filter },
