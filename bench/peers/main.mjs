@@ -25,6 +25,11 @@ async function mapSettings(penumbra, options) {
   return [];
 }
 
+function tellError(error) {
+  process.stderr.write(`error: ${lineOf(error)}\n`);
+  process.exitCode = error.code === 2 ? 2 : 1;
+}
+
 async function run(args) {
   const options = parse(args);
   if (options.help) return process.stdout.write(HELP);
@@ -39,10 +44,15 @@ async function run(args) {
   const report = { format: 'penumbra.peers/1', machine: machine(), settings, scenes: [] };
   for (const scene of options.scenes) {
     const tell = (text) => process.stderr.write(`${nameOf(scene)}: ${text}\n`);
-    const result = await measureScene(context, scene, tell);
-    report.scenes.push(result);
-    process.stdout.write(`${textTable(result, options.mapSize)}\n\n`);
+    try {
+      const result = await measureScene(context, scene, tell);
+      report.scenes.push(result);
+      process.stdout.write(`${textTable(result, options.mapSize)}\n\n`);
+    } catch (error) { // the other scenes are measured all the same
+      tellError(error);
+    }
   }
+  if (report.scenes.length === 0) return undefined;
   const rows = report.scenes.flatMap((result) => result.rows);
   report.chromium = unique(rows.map((row) => row.chromium))[0];
   report.drivers = unique(rows.map((row) => row.driver));
@@ -57,7 +67,6 @@ undoAtEveryEnd();
 try {
   await run(process.argv.slice(2));
 } catch (error) {
-  process.stderr.write(`error: ${lineOf(error)}\n`);
-  process.exitCode = error.code === 2 ? 2 : 1;
+  tellError(error);
 }
 process.exit();

@@ -91,6 +91,16 @@ class Peers(support.TestCase):
             rows = support.read_png(pictures / f"{name}.png")
             self.assertEqual((len(rows[0]), len(rows)), (160, 90))
 
+    def test_a_scene_that_fails_costs_no_other_its_results(self):
+        results, tables = self.folder / "peers.json", self.folder / "peers.md"
+        lamps = support.ROOT / "scenes" / "gallery.glb"
+        code, out, errors = self.peers(lamps, SCENE, *SMALL, "--peers", "", "--cascades", "1", "--no-truth", "--json",
+                                       results, "--markdown", tables)
+        self.assertEqual(code, 1, out + errors)
+        self.assertIn(f"error: {lamps}: it has ", errors)
+        self.assertEqual([scene["scene"] for scene in json.loads(results.read_text())["scenes"]], ["steps"])
+        self.assertIn("### steps", tables.read_text())
+
     def test_a_browser_that_hangs_is_ended_and_reported(self):
         programs = self.folder / "bin"
         programs.mkdir()
