@@ -54,7 +54,7 @@ async function run(args) {
   }
   if (report.scenes.length === 0) return undefined;
   const rows = report.scenes.flatMap((result) => result.rows);
-  report.chromium = unique(rows.map((row) => row.chromium))[0];
+  report.chromium = unique(rows.map((row) => row.chromium))[0] ?? null;
   report.drivers = unique(rows.map((row) => row.driver));
   process.stdout.write(`${conditions(report)}\n`);
   if (json) writeWhole(json, `${JSON.stringify(report, null, 2)}\n`);

@@ -118,7 +118,7 @@ export function parse(args) {
     mapSize: whole('map-size', values['map-size'], 16, 8192),
     taps: { blocker, filter },
     sunAngle: number('sun-angle', values['sun-angle'], 0.01, 60),
-    camera: values.camera,
+    camera: values.camera ?? null,
     ground: chosen('ground', values.ground, ['auto', 'on', 'off']),
     white: chosen('materials', values.materials, ['own', 'white']) === 'white',
     keepMaps: chosen('maps', values.maps, ['anew', 'kept']) === 'kept',

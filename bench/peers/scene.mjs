@@ -11,7 +11,7 @@ function boundsWithGround({ min, max }, ground) {
 // The arguments by which every command of penumbra draws the same view of a scene under the same sun.
 export function sceneArguments(options) {
   return ['--size', `${options.width}x${options.height}`, '--ground', options.ground, '--sun-angle', options.sunAngle,
-    ...(options.camera === undefined ? [] : ['--camera', options.camera])];
+    ...(options.camera === null ? [] : ['--camera', options.camera])];
 }
 
 // The setup of a peer's page, without the number of maps and the materials. url: the scene's address on the server.

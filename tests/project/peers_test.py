@@ -27,6 +27,13 @@ def skip_without_what_it_needs():
         raise unittest.SkipTest("the renderers of bench/peers are not installed: bench/peers/run.sh installs them")
 
 
+def checked(results):
+    """The report, which must be as its schema says."""
+    report = json.loads(results.read_text())
+    jsonschema.validate(report, json.loads((support.ROOT / "docs" / "schemas" / "peers.json").read_text()))
+    return report
+
+
 class Peers(support.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -71,8 +78,7 @@ class Peers(support.TestCase):
         code, out, errors = self.peers(SCENE, *SMALL, "--materials", "white", "--json", results, "--markdown", tables,
                                        "--pictures", pictures)
         self.assertEqual(code, 0, out + errors)
-        report = json.loads(results.read_text())
-        jsonschema.validate(report, json.loads((support.ROOT / "docs" / "schemas" / "peers.json").read_text()))
+        report = checked(results)
         scene = report["scenes"][0]
         rows = {(row["renderer"], row["maps"]): row for row in scene["rows"]}
         self.assertEqual(set(rows), {("Penumbra", 4), ("Penumbra", 1), ("three.js", 1), ("Babylon.js", 4),
@@ -94,11 +100,11 @@ class Peers(support.TestCase):
     def test_a_scene_that_fails_costs_no_other_its_results(self):
         results, tables = self.folder / "peers.json", self.folder / "peers.md"
         lamps = support.ROOT / "scenes" / "gallery.glb"
-        code, out, errors = self.peers(lamps, SCENE, *SMALL, "--peers", "", "--cascades", "1", "--no-truth", "--json",
-                                       results, "--markdown", tables)
+        code, out, errors = self.peers(lamps, SCENE, *SMALL, "--peers", "", "--cascades", "1", "--no-truth",
+                                       "--camera", "0", "--json", results, "--markdown", tables)
         self.assertEqual(code, 1, out + errors)
         self.assertIn(f"error: {lamps}: it has ", errors)
-        self.assertEqual([scene["scene"] for scene in json.loads(results.read_text())["scenes"]], ["steps"])
+        self.assertEqual([scene["scene"] for scene in checked(results)["scenes"]], ["steps"])
         self.assertIn("### steps", tables.read_text())
 
     def test_a_browser_that_hangs_is_ended_and_reported(self):
@@ -107,11 +113,15 @@ class Peers(support.TestCase):
         (programs / "chromium").write_text("#!/bin/sh\nsleep 600\n")
         (programs / "chromium").chmod(0o755)
         path = f"{programs}:{os.environ['PATH']}"
-        code, out, errors = self.peers(SCENE, *SMALL, "--peers", "three", "--cascades", "1", "--no-truth", "--timeout",
-                                       "3", PATH=path)
+        results = self.folder / "peers.json"
+        code, out, errors = self.peers(SCENE, *SMALL, "--peers", "three", "--cascades", "1", "--timeout", "3", "--json",
+                                       results, PATH=path)
         self.assertEqual(code, 1, errors)
         self.assertIn("failed: three.js: the start of Chromium took longer than 3 s\n", out)
         self.assertIn("Penumbra", out)  # the others are measured all the same
+        failed = checked(results)["scenes"][0]["rows"][1]
+        self.assertEqual((failed["renderer"], failed["version"], failed["figures"]), ("three.js", None, None))
+        self.assertIn("took longer than 3 s", failed["failed"])
 
     def test_ctrl_c_leaves_nothing(self):
         process = self.start(SCENE, *SMALL, "--frames", "10000", "--peers", "babylon", "--cascades", "1", "--no-truth")
