@@ -108,6 +108,20 @@ TEST_F(Slices, DenoisedKeepNarrowPenumbraeWithinAWideOne) {
   EXPECT_LE(std::abs(two.bias), 0.002);
 }
 
+// Where nothing lies below another caster, pixels are sampled as with one layer.
+TEST_F(Slices, LoseNothingByASecondLayerWhereCastersDoNotOverlap) {
+  SceneRun run("steps", 320, 180);
+  for (const float angle : {0.53f, 2.0f}) {
+    run.params().set("sun.angle", angle);
+    const Visibility truth = run.draw_truth(256);
+    const Figures one = figures_of(run, truth, "slices_denoised"), two = figures_of(run, truth, "slices_denoised", 2);
+    std::printf("steps, %g degrees, denoised: one layer %.2f / %.2f dB; two layers %.2f / %.2f dB\n",
+                static_cast<double>(angle), one.all, one.penumbra, two.all, two.penumbra);
+    EXPECT_NEAR(two.all, one.all, 0.1);
+    EXPECT_NEAR(two.penumbra, one.penumbra, 0.1);
+  }
+}
+
 // A software rasteriser ends loops after a limit. At a seam the most slices and samples run twice in a pixel.
 TEST_F(Slices, OfTheMostSamplesAreComplete) {
   SceneRun run("posts", 48, 32);
