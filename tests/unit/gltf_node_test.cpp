@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "render/setup.h"
 #include "scene/pose.h"
 #include "scene/scene_info.h"
@@ -71,6 +73,13 @@ TEST(GltfNode, ReadsInstances) {
   ASSERT_EQ(scene.nodes[0].instances.size(), 2u);
   EXPECT_EQ(scene::bounds_of(scene, scene::rest_pose(scene)).max, glm::vec3(23, 3, 0));
   EXPECT_THROW(load_text(gltf.text(mesh + "0}}}}]")), Error) << "three scales for two translations";
+
+  gltf.add(std::vector<float>{0, std::sqrt(0.5f), 0, std::sqrt(0.5f), 0, 0, 0, 1}, "VEC4", 4);
+  const Scene turned = load_text(gltf.text(mesh + R"(2,"ROTATION":3}}}}])"));
+  check_scene(turned);
+  const scene::Bounds bounds = scene::bounds_of(turned, scene::rest_pose(turned));  // +X turned to -Z
+  EXPECT_LT(glm::distance(bounds.min, glm::vec3(10, 0, -2)), 1e-5f);
+  EXPECT_LT(glm::distance(bounds.max, glm::vec3(23, 3, 0)), 1e-5f);
 }
 
 TEST(GltfNode, RefusesJointsBeyondTheSkin) {
