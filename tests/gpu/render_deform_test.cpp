@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <random>
 
 #include "render_scenes.h"
@@ -244,6 +246,34 @@ TEST_F(DeformTest, GeometricNormalsFollowTheMorph) {
       EXPECT_LT(glm::distance(seen, expected), 1e-6f) << side << " at " << tilt;
     }
   }
+}
+
+// A quarter turn of a normal map's square, by its node or by a joint.
+TEST_F(DeformTest, TangentsFollowTheJoints) {
+  scene::Primitive quad = square();
+  quad.tangents.assign(4, {1, 0, 0, 1});
+  quad.uvs[0].assign(4, {0.5f, 0.5f});
+  quad.material = 0;
+  scene::Scene scene;
+  scene.images.push_back({.name = "leaning to the right", .rgba = {204, 128, 230, 255}});
+  scene.textures.push_back({.image = 0});
+  scene.materials.push_back({.normal_texture = {.texture = 0}});
+  const scene::Transform quarter{.rotation = glm::angleAxis(glm::half_pi<float>(), glm::vec3(0, 0, 1))};
+  add_node(scene, quad, glm::mat4_cast(quarter.rotation));
+  draw(scene);
+  const glm::vec3 by_node = pixel3("normal", width / 2 + 3, height / 2);
+  EXPECT_NEAR(by_node.y, 0.6f, 0.01f);
+
+  quad.joints.assign(4, {0, 0, 0, 0});
+  quad.weights.assign(4, {1, 0, 0, 0});
+  scene.meshes[0].primitives = {quad};
+  scene.nodes[0].matrix.reset();
+  scene.nodes[0].skin = 0;
+  scene.skins.push_back({.name = "skin", .joints = {1}, .inverse_bind = {glm::mat4(1)}});
+  scene.nodes.push_back({.name = "joint", .transform = quarter});
+  scene.roots.push_back(1);
+  draw(scene);
+  EXPECT_LT(glm::distance(pixel3("normal", width / 2 + 3, height / 2), by_node), 1e-3f);
 }
 
 }  // namespace
