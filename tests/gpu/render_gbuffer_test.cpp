@@ -1,6 +1,8 @@
 // The G-buffer: depth, normals, motion, culling, alpha masks, instances.
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "render_scenes.h"
 
@@ -68,6 +70,36 @@ TEST_F(GBufferTest, ShadingNormalsOfBackFacesTurnRound) {
   draw(scene);
   const glm::vec3 normal = pixel3("normal", width / 2, height / 2);
   EXPECT_NEAR(normal.z, 1, 1e-4f);
+}
+
+// A texture of an opaque and a clear half, twice over a square, from the left to the right or from below upwards.
+TEST_F(GBufferTest, TexturesAreRepeatedMirroredOrHeldAtTheirEdge) {
+  using enum scene::Wrap;
+  for (const auto& [wrap, expected] :
+       {std::pair(repeat, "#.#."), std::pair(mirrored_repeat, "#..#"), std::pair(clamp_to_edge, "#...")}) {
+    for (const bool upwards : {false, true}) {
+      scene::Scene scene;
+      scene.images.push_back({.name = "halves",
+                              .width = upwards ? 1 : 2,
+                              .height = upwards ? 2 : 1,
+                              .rgba = {255, 255, 255, 255, 255, 255, 255, 0}});
+      scene.textures.push_back(
+          {.image = 0, .mag = scene::Filter::nearest, .min = scene::Filter::nearest, .mipmapped = false});
+      (upwards ? scene.textures[0].wrap_t : scene.textures[0].wrap_s) = wrap;
+      scene.materials.push_back({.base_color_texture = {.texture = 0}, .alpha_mode = scene::AlphaMode::mask});
+      scene::Primitive quad = square();
+      quad.uvs[0] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
+      quad.material = 0;
+      add_node(scene, quad, glm::mat4(1));
+      draw(scene);
+      std::string seen;
+      for (const int at : {-9, -3, 2, 8}) {  // the middles of its quarters
+        const int x = width / 2 + (upwards ? 0 : at), y = height / 2 - 1 - (upwards ? at : 0);
+        seen += pixel("depth", x, y)[0] > 0 ? '#' : '.';
+      }
+      EXPECT_EQ(seen, expected) << (upwards ? "upwards" : "to the right");
+    }
+  }
 }
 
 TEST_F(GBufferTest, MotionOfAMovedCameraIsTheReprojection) {
