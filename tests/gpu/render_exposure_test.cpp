@@ -20,9 +20,9 @@ struct Pixel {
 
 class Exposure : public GpuTest {
  protected:
-  // The exposure of a picture of that size.
+  // The exposure of a picture of that size. `stops`: added to it.
   template <class PixelAt>
-  float measured(int width, int height, PixelAt pixel_at) {
+  float measured(int width, int height, PixelAt pixel_at, float stops = 0) {
     std::vector<glm::vec4> lit, albedo;
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
@@ -40,7 +40,8 @@ class Exposure : public GpuTest {
     const gl::Texture light = texture_of("lit", lit), roots = texture_of("albedo", albedo);
     render::GBuffer gbuffer;
     gbuffer.albedo = &roots;
-    const ParamSet params(render::render_params());
+    ParamSet params(render::render_params());
+    params.set("exposure.compensation", stops);
     const gl::Buffer& buffer = render::measure_exposure(device, {.gbuffer = gbuffer, .lit = light, .params = params});
     float exposure = 0;
     gl::glGetNamedBufferSubData(buffer.id(), 0, sizeof(exposure), &exposure);
@@ -80,6 +81,13 @@ TEST_F(Exposure, LeavesOutUnlitSurfaces) {
     return x < 200 ? Pixel{.radiance = 0.5f} : Pixel{.radiance = 0.25f, .alpha = 1.0f / 3.0f};
   });
   EXPECT_NEAR(exposure, 2, 1e-4);
+}
+
+TEST_F(Exposure, IsTwiceAsBrightWithOneMoreStop) {
+  const auto grey = [](int, int) { return Pixel{.radiance = 0.25f}; };
+  const float usual = measured(64, 64, grey);
+  EXPECT_FLOAT_EQ(measured(64, 64, grey, 1), 2 * usual);
+  EXPECT_FLOAT_EQ(measured(64, 64, grey, -2), usual / 4);
 }
 
 // As ADR 32 has it, of ground that fills the picture, at noon and in the evening.
