@@ -1,13 +1,16 @@
-// Every parameter of a technique, and of what it needs, changes the mask for at least one of its values, and none of
-// them makes it anything but shares of light.
+// Every parameter of a technique and of what it needs, of the library and of its denoisers changes the mask for at
+// least one of its values, and none of them makes it anything but shares of light.
 
 #include <algorithm>
+#include <functional>
+#include <glm/gtc/matrix_transform.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "gpu/gpu_test.h"
 #include "gpu/triangle_scene.h"
+#include "shadow/library_params.h"
 
 namespace penumbra::test {
 namespace {
@@ -30,22 +33,48 @@ class ShadowParams : public TriangleTest {
     scene_.width = scene_.height = 64;
   }
 
-  std::vector<float> draw(const ParamSet& params) {
-    std::vector<float> mask = renderer_->render(scene_, params).visibilities();
-    EXPECT_TRUE(std::ranges::all_of(mask, [](float seen) { return seen >= 0 && seen <= 1; }));
+  std::vector<float> draw(const ParamSet& params) { return checked(renderer_->render(scene_, params)); }
+
+  // The third frame of a view whose camera and narrowest caster move.
+  std::vector<float> draw_moving(const ParamSet& params) {
+    std::vector<float> mask;
+    TriangleScene scene = scene_;
+    const glm::mat4 first_view = scene.view;
+    for (int frame = 0; frame < 3; ++frame) {
+      const glm::mat4 last_view = scene.view;
+      scene.view = first_view * glm::translate(glm::mat4(1), glm::vec3(0.1f, 0, 0.05f) * static_cast<float>(frame));
+      if (frame > 0) scene.move_from(26, glm::vec3(0.1f, 0, 0));
+      mask = checked(renderer_->render(scene, params, [&](shadow::Inputs& inputs) {
+        inputs.view.last_view = last_view;
+        inputs.view.last_projection = inputs.view.projection;
+        inputs.view.cut = frame == 0;
+      }));
+    }
     return mask;
   }
 
-  // Whether one of the parameter's values changes the mask that `params` give.
-  bool changes(const Param& param, const ParamSet& params, const std::vector<float>& usual) {
-    bool changed = false;
-    for (const ParamValue& value : values_of(param)) {
-      SCOPED_TRACE(param.name + "=" + to_text(value));
-      ParamSet other = params;
-      other.set(param.name, value);
-      changed = draw(other) != usual || changed;
+  // Those of `rows` of which no value changes the mask that `params` give.
+  static std::set<std::string> idle_of(const std::vector<Param>& rows, const ParamSet& params,
+                                       const std::function<std::vector<float>(const ParamSet&)>& draw) {
+    std::set<std::string> idle;
+    const std::vector<float> usual = draw(params);
+    for (const Param& param : rows) {
+      bool changed = false;
+      for (const ParamValue& value : values_of(param)) {
+        SCOPED_TRACE(param.name + "=" + to_text(value));
+        ParamSet other = params;
+        other.set(param.name, value);
+        changed = draw(other) != usual || changed;
+      }
+      if (!changed) idle.insert(param.name);
     }
-    return changed;
+    return idle;
+  }
+
+  static std::vector<float> checked(const Shadowed& shadowed) {
+    std::vector<float> mask = shadowed.visibilities();
+    EXPECT_TRUE(std::ranges::all_of(mask, [](float seen) { return seen >= 0 && seen <= 1; }));
+    return mask;
   }
 
   TriangleScene scene_ = box_on_ground();
@@ -59,20 +88,38 @@ TEST_F(ShadowParams, OfTechniquesChangeTheMask) {
     params.set("technique", technique.name);
     params.set("sun.angle", 6.0f);
     params.set("cascades.size", 128);
-    const std::vector<float> usual = draw(params);
     std::vector<Param> rows = technique.params;
     for (const std::string& need : technique.needs) {
       if (need == "shadow_map") continue;
       const std::vector<Param>& more = registry.find_recipe(need).params;
       rows.insert(rows.end(), more.begin(), more.end());
     }
-    for (const Param& param : rows) {
-      if (!changes(param, params, usual)) idle.insert(param.name);
-    }
+    idle.merge(idle_of(rows, params, [&](const ParamSet& other) { return draw(other); }));
   }
   EXPECT_EQ(idle, (std::set<std::string>{"maps.gap",                // of a second layer, which is not drawn here
                                          "pcss.disocclusion_taps",  // where a history is refused; here is none
                                          "pcss.early_exit"}));      // changes the cost alone
+}
+
+TEST_F(ShadowParams, OfTheLibraryAndDenoisersChangeTheMask) {
+  const shadow::Registry& registry = renderer_->shadows().registry();
+  std::vector<Param> rows = shadow::library_params();
+  for (const std::vector<Param>& more : {shadow::movement_params(), shadow::filter_params(registry.filters())})
+    rows.insert(rows.end(), more.begin(), more.end());
+  rows.push_back(shadow::denoiser_param(registry.denoisers()));
+  for (const shadow::Denoiser& denoiser : registry.denoisers())
+    rows.insert(rows.end(), denoiser.params.begin(), denoiser.params.end());
+  ParamSet params = renderer_->params();
+  params.set("sun.angle", 6.0f);
+  params.set("cascades.size", 128);
+  params.set("history.reuse", true);
+  params.set("filter.visibility", "bilateral");
+  params.set("filter.width", 0.5f);
+  // Without a lamp and a rest of the view. The others change the stage, the cost or the passes alone.
+  const std::set<std::string> may_be_idle = {"lamps.near", "lamps.size", "maps.jitter",     "driver",
+                                             "maps.keep",  "mask.tiles", "movement.present"};
+  for (const std::string& name : idle_of(rows, params, [&](const ParamSet& other) { return draw_moving(other); }))
+    EXPECT_TRUE(may_be_idle.contains(name)) << name;
 }
 
 }  // namespace
