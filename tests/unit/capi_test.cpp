@@ -211,6 +211,8 @@ TEST(CInterface, EveryParameterAndTechniqueIsListed) {
     names.emplace_back(technique.name);
     EXPECT_EQ(penumbra_settings_select(settings.held, technique.name), PENUMBRA_OK);
     EXPECT_STRNE(technique.summary, "");
+    const auto is_it = [&](const shadow::Preset& preset) { return preset.name == names.back(); };
+    EXPECT_EQ(technique.is_preset, std::ranges::any_of(shadow::built_in_registry().presets(), is_it) ? 1u : 0u);
   }
   EXPECT_EQ(names, shadow::built_in_registry().names());
 }
