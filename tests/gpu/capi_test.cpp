@@ -7,6 +7,8 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <map>
 #include <set>
+#include <new>
+#include <utility>
 
 #include "capi/device.h"
 #include "gl/compatibility.h"
@@ -52,6 +54,20 @@ class CapiTest : public TriangleTest {
     EXPECT_EQ(std::memcmp(of_c.data(), of_facade.data(), of_c.size() * sizeof(float)), 0);
   }
 
+  // The same of three frames between which a box moves.
+  void expect_same_masks_of_motion(const ParamSet& params) {
+    TriangleScene scene = box_on_ground(48);
+    for (int frame = 0; frame < 3; ++frame) {
+      if (frame > 0) scene.move_from(2, glm::vec3(0.1f, 0, 0));
+      expect_same_mask(scene, params, [&](shadow::Inputs& inputs) {
+        inputs.view.id = 7;
+        inputs.view.last_view = inputs.view.view;
+        inputs.view.last_projection = inputs.view.projection;
+        inputs.view.cut = frame == 0;
+      });
+    }
+  }
+
   // A frame of `scene` whose textures are those of the facade's device.
   penumbra_frame frame_of(const TriangleScene& scene, const Geometry& geometry) {
     penumbra_frame frame{};
@@ -90,25 +106,23 @@ TEST_F(CapiTest, MasksOfEveryTechniqueAreThoseOfTheFacade) {
 }
 
 TEST_F(CapiTest, MasksOfEveryPresetAreThoseOfTheFacadeWhileCastersMove) {
-  std::set<int32_t> kinds;
   for (const shadow::Preset& preset : renderer_->shadows().registry().presets()) {
     SCOPED_TRACE(preset.name);
     ParamSet params = renderer_->params();
     renderer_->shadows().registry().select(params, preset.name);
     params.set("cascades.size", 256);
-    TriangleScene scene = box_on_ground(48);
-    const GLuint view = 7;
-    for (int frame = 0; frame < 3; ++frame) {
-      if (frame > 0) scene.move_from(2, glm::vec3(0.1f, 0, 0));
-      expect_same_mask(scene, params, [&](shadow::Inputs& inputs) {
-        inputs.view.id = static_cast<int>(view);
-        inputs.view.last_view = inputs.view.view;
-        inputs.view.last_projection = inputs.view.projection;
-        inputs.view.cut = frame == 0;
-      });
-    }
+    expect_same_masks_of_motion(params);
   }
   EXPECT_GT(c_->passes[PENUMBRA_PASS_MOVED_LAST], 0);
+}
+
+TEST_F(CapiTest, WhatMovedIsDrawnInTheShadowPassIfSoSet) {
+  ParamSet params = renderer_->params();
+  renderer_->shadows().registry().select(params, "thesis");
+  params.set("movement.present", "shadow_pass");
+  params.set("cascades.size", 256);
+  expect_same_masks_of_motion(params);
+  EXPECT_GT(c_->passes[PENUMBRA_PASS_DEPTH_AND_MOVED], 0);
 }
 
 TEST_F(CapiTest, NormalsMayBeThoseOfShading) {
@@ -433,6 +447,18 @@ TEST_F(CapiTest, WhatACallbackReturnsEndsTheFrame) {
   EXPECT_EQ(penumbra_bind_forward(c_->device, 1, 0), PENUMBRA_ERROR_ARGUMENT);
   frame.draw = draw;
   EXPECT_EQ(c_->render(frame), expected);
+}
+
+TEST_F(CapiTest, ACallbackWithoutMemoryEndsTheFrame) {
+  const TriangleScene scene = box_on_ground(48);
+  const Geometry geometry(scene);
+  penumbra_frame frame = frame_of(scene, geometry);
+  const auto draw =
+      std::exchange(frame.draw, [](void*, const penumbra_caster_pass*) -> int32_t { throw std::bad_alloc(); });
+  EXPECT_EQ(result_of(frame), PENUMBRA_ERROR_MEMORY);
+  EXPECT_STREQ(penumbra_last_error(), "no memory is left");
+  frame.draw = draw;
+  EXPECT_EQ(result_of(frame), PENUMBRA_OK) << penumbra_last_error();
 }
 
 struct Within {
