@@ -146,10 +146,10 @@ TEST_F(ShaderReloadTest, AFirstLoadThatFailsThrowsAndAFixIsFound) {
   EXPECT_TRUE(library.errors().empty());
 }
 
-// Ids of OpenGL's programs and shaders.
-std::set<GLuint> live_names() {
+// Ids of OpenGL's programs and shaders, up to some thousands above `own`.
+std::set<GLuint> live_names(const std::set<GLuint>& own) {
   std::set<GLuint> names;
-  for (GLuint id = 1; id < 4096; ++id) {
+  for (GLuint id = 1; id < *own.rbegin() + 4096; ++id) {
     if (gl::glIsProgram(id) == GL_TRUE || gl::glIsShader(id) == GL_TRUE) names.insert(id);
   }
   return names;
@@ -160,7 +160,7 @@ TEST_F(ShaderReloadTest, ManySavesLeaveNoObjectsBehind) {
   // A program that an earlier test deleted while it was current lives until another one, or none, is made current. Then
   // its id is free, and a new program of this test can get it.
   gl::glUseProgram(0);
-  std::set<GLuint> others = live_names();
+  std::set<GLuint> others = live_names(own_names());
   for (const GLuint id : own_names()) others.erase(id);
   std::minstd_rand random(1);
   for (int i = 0; i < 200; ++i) {
@@ -180,7 +180,7 @@ TEST_F(ShaderReloadTest, ManySavesLeaveNoObjectsBehind) {
   EXPECT_EQ(size_of(b), 5);
   EXPECT_TRUE(library.errors().empty());
   gl::glUseProgram(0);
-  std::set<GLuint> left = live_names();
+  std::set<GLuint> left = live_names(own_names());
   for (const GLuint id : others) left.erase(id);
   EXPECT_EQ(left, own_names());
 }
