@@ -10,9 +10,14 @@ source "$root/scripts/setup.sh"
 ensure_packages "run test"
 tests_built release penumbra_image_tests
 
+tests=$root/build/release/tests/penumbra_image_tests
 filter='All/GoldenPictures.*'
 if (($# > 0)); then
   filter=
-  for name; do filter+="All/GoldenPictures.IsAsRecorded/$name:"; done
+  for name; do
+    one=All/GoldenPictures.IsAsRecorded/$name
+    [[ -n $("$tests" --gtest_list_tests --gtest_filter="$one") ]] || die "there is no golden picture '$name'"
+    filter+=$one:
+  done
 fi
-PENUMBRA_GOLDENS=record "$root/build/release/tests/penumbra_image_tests" --gtest_filter="$filter" --gtest_brief=1
+PENUMBRA_GOLDENS=record "$tests" --gtest_filter="$filter" --gtest_brief=1
