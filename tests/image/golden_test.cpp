@@ -63,10 +63,20 @@ std::string command_of(const Golden& golden) {
   return command + fmt::format(" --aov {} -o {}.exr", golden.aov, golden.name);
 }
 
+void print_tolerances() {
+  const GoldenVersions versions = read_versions(versions_file());
+  const std::string here = version_here();
+  const auto own = std::ranges::count_if(versions, [&](const auto& version) { return version.second == here; });
+  fmt::print("golden pictures: {} recorded {} of {} and is held to their own tolerances; others are {}\n", here, own,
+             versions.size(), gl::device_info().software ? "compared with the looser one" : "skipped");
+}
+
 class GoldenPictures : public GpuTest, public testing::WithParamInterface<Golden> {
  protected:
   GoldenPictures() {
-    if (!renderer_) renderer_ = std::make_unique<GoldenRenderer>();
+    if (renderer_) return;
+    renderer_ = std::make_unique<GoldenRenderer>();
+    if (!recording()) print_tolerances();
   }
   static void TearDownTestSuite() { renderer_.reset(); }
 
