@@ -127,7 +127,7 @@ class Commands(support.TestCase):
 
 class JobThatChecksPictures(support.TestCase):
     """docs/ci/pictures.yml, whose command compares with what was recorded with the same settings."""
-    def test_it_fails_when_a_picture_changed_or_is_missing(self):
+    def test_it_fails_when_a_picture_changed_or_is_missing_or_has_no_scene(self):
         job = (support.ROOT / "docs" / "ci" / "pictures.yml").read_text()
         command, settings = re.search(r"- run: (docs/ci/\S+)\n +env:\n((?: {10}\w+: .*\n)+)", job).groups()
         settings = dict(re.findall(r"(\w+): ([^\s#]+)", settings))
@@ -144,8 +144,16 @@ class JobThatChecksPictures(support.TestCase):
         self.assertEqual(check("--record"), 0)
         self.assertEqual(check(), 0)
         self.assertEqual(check("--sun", "30,40"), 1)
-        next((self.folder / "recorded").iterdir()).unlink()
+        picture, = (self.folder / "recorded").iterdir()
+        of_no_scene = picture.rename(picture.with_name("removed.png"))
         self.assertEqual(check(), 1)
+        shutil.copy(of_no_scene, picture)
+        self.assertEqual(check(), 1)
+        of_no_scene.unlink()
+        self.assertEqual(check(), 0)
+        shutil.rmtree(picture.parent)
+        picture.parent.write_text("no folder")
+        self.assertEqual(check("--record"), 1)
 
 
 CODE = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
