@@ -39,6 +39,7 @@ DECLARED = re.compile(r"^(?:using [\w:]+::(\w+);|using (\w+) =|(?:struct|class|e
                       r"|(?!namespace|using|struct|class|enum|template|return|#|//)\w[\w:<>,&*\s]*?[\s&*](\w+)(?=\(|\[|\{| =|;))",
                       re.MULTILINE)
 
+COMPILER = re.compile(r"[cg]\+\+(-\d+)?$")  # c++, g++-12, clang++-16
 NOT_CODE = re.compile(r'//.*|"(?:[^"\\\n]|\\.)*"|^#include.*', re.MULTILINE)
 WORD = re.compile(r"(?<![.\w>:])[A-Za-z_]\w*|(?<=[^:]:)[A-Za-z_]\w*")  # not a member, nor a name of a named scope
 
@@ -88,7 +89,7 @@ def compiler_arguments(command):
     """Without the optimization, and without what names the file, its output and the precompiled header, which is GCC's
     and not Clang's."""
     arguments = shlex.split(command)
-    arguments = arguments[next(i for i, word in enumerate(arguments) if word.endswith("c++")) + 1:]
+    arguments = arguments[next(i for i, word in enumerate(arguments) if COMPILER.search(word)) + 1:]
     with_value = ("-o", "-c", "-MT", "-MF", "-include")
     kept = [word for before, word in zip([""] + arguments, arguments) if before not in with_value]
     return [word for word in kept
