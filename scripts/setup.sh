@@ -83,7 +83,18 @@ ensure_packages() {
   fi
   hash -r
   missing_packages "$1"
-  ((${#packages[@]} == 0)) || die "still not found after installing: ${missing[*]}"
+  ((${#packages[@]} == 0)) || die "still not found after installing: ${missing[*]}$(other_python)"
+}
+
+# What to do if a module is still missing since apt installs for the system's Python and PATH has another one first.
+other_python() {
+  local python package
+  python=$(command -v python3) || return 0
+  [[ $python == /usr/bin/python3 ]] && return
+  for package in "${packages[@]}"; do
+    [[ $package == python3-* ]] || continue
+    printf '; apt installs for another Python than %s: %s -m pip install %s' "$python" "$python" "${package#python3-}"
+  done
 }
 
 # ensure_peers: installs the npm packages that bench/peers measures into build/peers, in the versions of its lock file.

@@ -117,6 +117,17 @@ class RunScript(support.TestCase):
             self.assertIn(line, result.stderr)
         self.assertNotIn("libc6-dev", result.stderr)
 
+    def test_a_module_that_apt_installs_for_another_python_is_named_with_its_command(self):
+        tools = self.folder / "tools"
+        tools.mkdir()
+        for name, text in {"apt-get": "exit 0", "sudo": '"$@"', "python3": "exit 1"}.items():
+            (tools / name).write_text(f"#!/bin/sh\n{text}\n")
+            (tools / name).chmod(0o755)
+        (self.project / "scripts" / "packages.txt").write_text("run python no_such_module python3-no-such-module\n")
+        result = self.run_script("a", env={**os.environ, "PATH": f"{tools}:{os.environ['PATH']}"})
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(f"{tools}/python3 -m pip install no-such-module", result.stderr)
+
 
 if __name__ == "__main__":
     support.main()
