@@ -120,12 +120,26 @@ ensure_peers() {
   build_unlock
 }
 
+# free_kib [FOLDER OF THE CGROUP]: the memory that is free on this machine, or in this container if that is less.
+free_kib() {
+  local group=${1:-/sys/fs/cgroup} kib limit left
+  kib=$(awk '$1 == "MemAvailable:" { print $2 }' /proc/meminfo)
+  kib=${kib:-2000000}
+  limit=$(cat "$group/memory.max" 2>/dev/null) || limit=max
+  if [[ $limit != max ]]; then
+    # The files that it has read count as used, but make room.
+    left=$(awk -v left="$limit" 'NF == 1 { left -= $1 } $1 == "inactive_file" { left += $2 }
+      END { printf "%d", left / 1024 }' "$group/memory.current" "$group/memory.stat")
+    ((left < kib)) && kib=$left
+  fi
+  echo "$kib"
+}
+
 # A compiler process takes up to 1.5 GiB on this code: as many jobs as the cores and the free memory allow.
 build_jobs() {
-  local cores kib jobs
+  local cores jobs
   cores=$(nproc)
-  kib=$(awk '$1 == "MemAvailable:" { print $2 }' /proc/meminfo)
-  jobs=$((${kib:-2000000} / 1572864))
+  jobs=$(($(free_kib) / 1572864))
   ((jobs > cores)) && jobs=$cores
   ((jobs < 1)) && jobs=1
   echo "$jobs"
