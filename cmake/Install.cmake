@@ -65,7 +65,7 @@ if(PENUMBRA_APP)
   set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
   install(TARGETS penumbra RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/scenes" DESTINATION "${CMAKE_INSTALL_DATADIR}/penumbra"
-    FILES_MATCHING PATTERN "*.glb" PATTERN "*.gltf")
+    FILES_MATCHING PATTERN "*.glb" PATTERN "*.gltf" PATTERN gen EXCLUDE PATTERN __pycache__ EXCLUDE)
   # The manual page, and what completes command lines.
   set(manual "${PROJECT_BINARY_DIR}/manual")
   install(FILES "${manual}/penumbra.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")

@@ -120,6 +120,8 @@ class Installed(support.TestCase):
         command(program, "render", self.prefix / "share" / "penumbra" / "scenes" / "steps.glb", "--size", "64x36", "-o",
                 picture, cwd=self.folder, env=self.elsewhere())
         self.assertTrue(picture.exists())
+        installed = list((self.prefix / "share" / "penumbra" / "scenes").iterdir())
+        self.assertEqual([path for path in installed if path.suffix not in (".glb", ".gltf")], [])
 
     def write_scene(self):
         """A triangle with a JPEG on it."""
