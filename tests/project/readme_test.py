@@ -68,7 +68,8 @@ def interrupted(line):
 
 
 def left_out(line):
-    return line.startswith(LEFT_OUT) or (line.startswith("bench/peers/") and not PEERS.exists())
+    return (line.startswith(LEFT_OUT) or (line.startswith("bench/peers/") and not PEERS.exists())
+            or (line.startswith("./run.sh view ") and not support.has_viewer()))
 
 
 def commands(block):
@@ -98,6 +99,8 @@ class Commands(support.TestCase):
         self.run_page("README.md")
 
     def test_viewer(self):
+        if not support.has_viewer():
+            self.skipTest("skipped: built without the viewer")
         self.run_page("docs/viewer.md")
 
     def test_command_line(self):

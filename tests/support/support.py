@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import signal
 import struct
 import subprocess
@@ -99,6 +100,11 @@ def has_header(*path):
     """Whether the compiler finds it."""
     folders = ["/usr/include", "/usr/local/include", *os.environ.get("CPATH", "").split(":")]
     return any(pathlib.Path(folder, *path).exists() for folder in folders if folder)
+
+
+def has_viewer():
+    """Whether the program was built with it."""
+    return re.search(r"^ +view ", run("--help").stdout, re.MULTILINE) is not None
 
 
 def has_openscenegraph():
