@@ -101,15 +101,19 @@ PICTURES = {**techniques(), **volumes(), **layers(), **screen_space(), **pattern
             **histories(), **terminator()}
 
 
-def draw(program, name):
+def options_of(name):
+    """Options of `penumbra render`, and what their last picture is called behind a full stop, if it is an AOV."""
     row = PICTURES[name]
     arguments, aov = row if isinstance(row, tuple) else (row, "shadow")
-    frames = "--frames" in arguments
+    return (arguments, "") if aov == "color" else (arguments + ["--aov", aov], f".{aov}")
+
+
+def draw(program, name):
+    arguments, aov = options_of(name)
     with tempfile.TemporaryDirectory() as folder:
-        picture = pathlib.Path(folder) / ("p_#.png" if frames else "p.png")
-        shown = [] if aov == "color" else ["--aov", aov]
-        subprocess.run([program, "render", *arguments, "-o", picture, *shown, "--quiet"], cwd=ROOT, check=True)
-        made = sorted(pathlib.Path(folder).glob(f"*.{aov}.png" if shown else "*.png"))[-1]
+        picture = pathlib.Path(folder) / ("p_#.png" if "--frames" in arguments else "p.png")
+        subprocess.run([program, "render", *arguments, "-o", picture, "--quiet"], cwd=ROOT, check=True)
+        made = sorted(pathlib.Path(folder).glob(f"*{aov}.png"))[-1]
         (FOLDER / f"{name}.png").write_bytes(made.read_bytes())
 
 
