@@ -1,5 +1,5 @@
 // Finds what the view's depth texture shows of the receivers, for cascades that are fitted to it (Lauritzen, Salvi and
-// Lefohn 2010, Sample distribution shadow maps). The first run, with BOUNDS 0, finds the least and the greatest stored
+// Lefohn 2011, Sample distribution shadow maps). The first run, with BOUNDS 0, finds the least and the greatest stored
 // depth. The second one divides the distances between them into slices, of equal ratios of far to near, and finds for
 // each slice how many pixels show it and its extents along several directions across the light. With UNDECIDED 1, what
 // is shown in decided tiles is left out.

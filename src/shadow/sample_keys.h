@@ -10,7 +10,7 @@
 namespace penumbra::shadow {
 
 // Sample points that differ from pixel to pixel by keys, such that the errors of neighbouring pixels differ: blue noise
-// (Heitz and Belcour 2019, "A low-discrepancy sampler that distributes Monte Carlo errors as a blue noise in screen
+// (Heitz et al. 2019, "A low-discrepancy sampler that distributes Monte Carlo errors as a blue noise in screen
 // space"). All pixels use the same 256 points: Sobol's first two dimensions (Sobol' 1967) with nested uniform
 // scrambling (Owen 1995), of which the first 2^k, and each 2^k from a multiple of it on, have one in each elementary
 // interval of area 2^-k.

@@ -1,4 +1,4 @@
-// Makes keys (see sample_keys.h) as Heitz and Belcour do. Each pixel's errors in the integrals of many test functions,
+// Makes keys (see sample_keys.h) as Heitz et al. do. Each pixel's errors in the integrals of many test functions,
 // half-planes across the unit square, are a vector. Keys start at random, and pixels swap them under simulated
 // annealing, to lessen the power of all vectors' low frequencies: the sum over all pairs of pixels of a Gaussian of
 // their distance times the product of their vectors. Vectors hold the errors at several numbers of samples. Below the

@@ -15,8 +15,8 @@ namespace penumbra::truth {
 namespace {
 
 constexpr std::uint32_t no_slot = ~0u;
-// Metres: blockers nearer than this count as so far away.
-constexpr float least_distance = 1e-3f;
+// Blockers nearer than this count as so far away: a millimetre, and less where pixels are smaller than a centimetre.
+float least_distance(float pixel) { return std::min(1e-3f, 0.1f * pixel); }
 
 // Where a pixel's rays start, and the cosines of the angles between its surface's normal and the light's centre and
 // sides: see SeenLight.
@@ -99,7 +99,7 @@ class Packets {
       if (measures_ && rays_.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID) {
         ++count.hits;
         // Directions advance by a metre along the light.
-        count.nearness += 1 / std::max(rays_.ray.tfar[i], least_distance);
+        count.nearness += 1 / std::max(rays_.ray.tfar[i], least_distance(starts_[i]->pixel));
       } else if (rays_.ray.tfar[i] >= 0) {  // Embree sets it to −∞ for an occluded ray
         ++count.lit;
       }

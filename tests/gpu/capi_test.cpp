@@ -6,8 +6,8 @@
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 #include <map>
-#include <set>
 #include <new>
+#include <set>
 #include <utility>
 
 #include "capi/device.h"

@@ -12,7 +12,8 @@ std::vector<Param> rows() {
       {"history.reuse", false, 0, 1, "", "Blends each frame with the last ones where they show the same surface."},
       {"history.alpha", 0.1f, 0.01, 1, "", "Weight of the present frame in the blend."},
       {"history.mean", false, 0, 1, "",
-       "Averages all frames equally until a new one would weigh less than history.alpha, and narrows filter.visibility "
+       "Averages all frames equally until a new one would weigh less than history.alpha or 1/31, and narrows "
+       "filter.visibility "
        "as frames add up."},
       {"history.distance", 1.0f, 0, 100, "px",
        "How far before or behind a receiver's plane, in widths of a pixel, the last frame's surface may lie."},
