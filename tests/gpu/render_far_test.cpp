@@ -16,8 +16,13 @@ class FarFromTheOrigin : public RenderTest {
     scene::Scene scene;
     const glm::mat4 here = glm::translate(glm::mat4(1), origin);
     add_node(scene, square(), glm::scale(here, glm::vec3(4)));
-    add_node(scene, square(), glm::scale(glm::translate(here, glm::vec3(0.3f, -0.2f, 1.5f)), glm::vec3(0.4f)));
-    if (auto* lamp = std::get_if<render::LampLight>(&light)) lamp->position += origin;
+    add_node(scene, square(), glm::scale(glm::translate(here, glm::vec3(0.3f, -0.2f, 1.5f)), glm::vec3(0.8f)));
+    if (auto* lamp = std::get_if<render::LampLight>(&light)) {
+      lamp->position += origin;
+      // A shade behind the lamp: the near plane of its maps is so near, too.
+      add_node(scene, square(),
+               glm::scale(glm::translate(glm::mat4(1), lamp->position + glm::vec3(0, 0, 0.03f)), glm::vec3(0.02f)));
+    }
     inputs.camera = inputs.last_camera = render::look_at(origin + glm::vec3(0, 1, 6), origin, 1.0f, 0.01f);
     inputs.lights = {light};
     draw(scene);
@@ -34,7 +39,7 @@ class FarFromTheOrigin : public RenderTest {
     }
     const auto pixels = static_cast<double>(near.size());
     EXPECT_GT(lit, 0.5 * pixels);
-    EXPECT_LT(lit, 0.97 * pixels);
+    EXPECT_LT(lit, 0.99 * pixels);
     EXPECT_LT(difference, 0.002 * pixels) << metres << " m";
   }
 };
