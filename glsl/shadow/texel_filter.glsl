@@ -88,7 +88,8 @@ struct HiddenLight {
 // Whether what blocks is at different heights: then what it hides may overlap, or leave gaps that the map can't show.
 bool heights_differ(HiddenLight hidden) { return hidden.least_height < least_share_of_height * hidden.most_height; }
 
-// The least height, metres, of what blocks in these texels behind what the map shows; a large number where nothing does.
+// The least height, metres, of what blocks in these texels behind what the map shows; a large number where nothing
+// does.
 float least_height_behind(Receiver receiver, ivec2 first, Offsets offsets, float bias, Light light) {
 #if maps_layers == 2
   vec4 depths = depths_behind(first, light);

@@ -108,8 +108,8 @@ bool goes_on(Blocker before, float height, float at, Receiver receiver, Light li
   return maps_layers == 1 || abs(height - before.height) <= steepest * cone_slope(receiver, light) * (at - before.at);
 }
 
-// Adds the rays that a texel of that depth hides to `rings`, if it is nearer to the light than `blocking`; `before`: the
-// sample before it on the line.
+// Adds the rays that a texel of that depth hides to `rings`, if it is nearer to the light than `blocking`; `before`:
+// the sample before it on the line.
 Blocker add_texel(inout Found found, inout uint rings, Receiver receiver, float depth, float blocking, float bias,
                   Stretch stretch, Blocker before, float dither, Light light) {
   if (depth >= blocking) return no_blocker;
@@ -219,7 +219,8 @@ Visibility visibility(Receiver receiver, Light light) {
       walk(found, receiver, share, slices + azimuth, counts.samples, overlaps, radius, noise, bias, light);
     } while (++azimuth < counts.azimuths);
     slices += counts.azimuths;
-    if (turn == 0 && found.hidden > 0 && found.hidden < ring_count * slices) rounds = rounds_for(receiver, found, light);
+    bool in_part = found.hidden > 0 && found.hidden < ring_count * slices;
+    if (turn == 0 && in_part) rounds = rounds_for(receiver, found, light);
     // Too few samples of that round were near the receiver.
     if (turn == 0 && found.overlaps && rounds > 1) {
       found = nothing_found(true);
