@@ -16,12 +16,15 @@ layout(location = 6) in uint instance;
 layout(location = 7) in mat4 world;
 #endif
 
-uniform mat4 to_clip;  // from positions less the anchor
-uniform vec3 anchor;   // world space
+#if ANCHORED
+uniform mat4 anchored_to_clip;  // of positions less the anchor
+uniform vec3 anchor;            // world space
+#else
+uniform mat4 world_to_clip;
+#endif
 
 // Invariant, because later passes test against the depths that this one leaves and must compute bit-identical
-// positions. surface.vert computes them by the same expressions but for the anchor, which is 0 where the G-buffer tests
-// for equal depth.
+// positions. Without ANCHORED surface.vert computes them by the same expressions: the G-buffer tests for equal depth.
 invariant gl_Position;
 
 #if MASKED
@@ -35,9 +38,13 @@ void main() {
 #if LAST_POSE
   mat4 world = instances[instance].last_world;
 #endif
+#if ANCHORED
   vec4 place = world * vec4(position, 1.0);
   place.xyz -= anchor;
-  gl_Position = to_clip * place;
+  gl_Position = anchored_to_clip * place;
+#else
+  gl_Position = world_to_clip * (world * vec4(position, 1.0));
+#endif
 #if MASKED
   caster.uv = uv;
   caster.color = color;

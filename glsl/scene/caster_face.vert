@@ -9,8 +9,7 @@ layout(location = 6) in uint instance;
 layout(std430, binding = 2) readonly restrict buffer CasterIndices { uint caster_indices[]; };
 layout(std430, binding = 3) readonly restrict buffer CasterPositions { float caster_positions[]; };
 
-uniform mat4 to_clip;  // from positions less the anchor
-uniform vec3 anchor;   // world space
+uniform mat4 world_to_clip;
 uniform vec4 caster_light;  // world space; w = 0: the direction to it, w = 1: its position
 uniform float caster_side;  // 1: the front faces cast, -1: the back faces
 
@@ -33,7 +32,5 @@ void main() {
   vec3 to_light = caster_light.xyz - caster_light.w * (world * vec4(a, 1.0)).xyz;
   bool casts = caster_side * dot(front, to_light) > 0.0;
   vec3 position = casts ? corner(uint(gl_VertexID)) : a;
-  vec4 place = world * vec4(position, 1.0);
-  place.xyz -= anchor;
-  gl_Position = to_clip * place;
+  gl_Position = world_to_clip * (world * vec4(position, 1.0));
 }

@@ -341,7 +341,8 @@ typedef struct penumbra_caster_pass {
   uint64_t program_id;         /**< from 1: the same for the same texts; 0 for other kinds */
   /** world_to_clip for positions less `anchor`: gl_Position = anchored_to_clip * vec4(position - anchor, 1). Far from
    * the world's origin world_to_clip has too few digits, so that surfaces shadow themselves: under lamps from about
-   * 50 m, under suns from 2 km on. Equal to it, with an anchor of 0, for PENUMBRA_PASS_GEOMETRY. */
+   * 50 m, under suns from 2 km on. Use one of both matrices in all passes of a light, and the anchor of the same pass.
+   * For PENUMBRA_PASS_GEOMETRY it is world_to_clip, and the anchor is 0. */
   float anchored_to_clip[16];
   float anchor[4]; /**< world, metres; w is 0 */
 } penumbra_caster_pass;

@@ -65,14 +65,10 @@ gl::ProgramDesc caster_program(const CasterDraw& which, const SurfaceTraits& tra
                                       {"TEXTURES", std::to_string(traits.textures)},
                                       {"TRANSFORMS", std::to_string(traits.transforms)},
                                       {"MARKS_MOVED", which.marks ? "1" : "0"},
-                                      {"BEHIND", behind ? "1" : "0"}}};
+                                      {"BEHIND", behind ? "1" : "0"},
+                                      {"ANCHORED", which.anchored ? "1" : "0"}}};
   if (traits.masked || which.marks || behind) program.fragment = "scene/caster.frag";
   return program;
-}
-
-void set_matrix(const gl::Program& program, const CasterMatrix& matrix) {
-  program.set("to_clip", matrix.to_clip);
-  program.set("anchor", matrix.anchor);
 }
 
 void GpuScene::State::draw_casters(gl::Device& device, gl::Pass& pass, const CasterDraw& which,
@@ -97,7 +93,8 @@ void GpuScene::State::draw_casters(gl::Device& device, gl::Pass& pass, const Cas
     }
     const auto use = [&](const SurfaceTraits& traits) {
       const gl::Program& program = pass.use(caster_program(which, traits));
-      set_matrix(program, matrix);
+      program.set("anchored_to_clip", matrix.to_clip);
+      program.set("anchor", matrix.anchor);
       if (which.behind != nullptr) bind_first_layer(device, program, *which.behind);
     };
     draw(device, pass, list, use);

@@ -185,7 +185,7 @@ void GpuScene::draw_depth(gl::Device& device, gl::Pass& pass, const glm::mat4& w
     }
     if (list.commands.empty()) continue;
     const auto use = [&](const SurfaceTraits& traits) {
-      set_matrix(pass.use(caster_program({}, traits)), {.to_clip = world_to_clip});
+      pass.use(caster_program({.anchored = false}, traits)).set("world_to_clip", world_to_clip);
     };
     state_->draw(device, pass, list, use);
   }
@@ -232,14 +232,14 @@ void GpuScene::draw_caster_geometry(gl::Device& device, gl::Pass& pass, const gl
                                     const glm::mat4& world_to_clip, const glm::vec4& light, const BoxTest& reaches) {
   const auto [both_faces, one_face] = caster_geometry_programs(stages);
   if (const DrawList list = state_->caster_geometry(CasterFaces::both, reaches); !list.commands.empty()) {
-    set_matrix(pass.use(both_faces), {.to_clip = world_to_clip});
+    pass.use(both_faces).set("world_to_clip", world_to_clip);
     state_->draw(device, pass, list);
   }
   for (const CasterFaces faces : {CasterFaces::front, CasterFaces::back}) {
     const DrawList list = state_->caster_geometry(faces, reaches);
     if (list.commands.empty()) continue;
     const gl::Program& program = pass.use(one_face);
-    set_matrix(program, {.to_clip = world_to_clip});
+    program.set("world_to_clip", world_to_clip);
     program.set("caster_light", light);
     program.set("caster_side", faces == CasterFaces::front ? 1.0f : -1.0f);
     state_->draw_unindexed(device, pass, list);
@@ -247,7 +247,7 @@ void GpuScene::draw_caster_geometry(gl::Device& device, gl::Pass& pass, const gl
 }
 
 std::array<gl::ProgramDesc, 2> GpuScene::caster_geometry_programs(const gl::ProgramDesc& stages) {
-  const gl::ProgramDesc caster = caster_program({}, {});
+  const gl::ProgramDesc caster = caster_program({.anchored = false}, {});
   gl::ProgramDesc both_faces = stages;
   both_faces.vertex = caster.vertex;
   both_faces.defines.insert(both_faces.defines.end(), caster.defines.begin(), caster.defines.end());
@@ -265,7 +265,7 @@ std::vector<gl::ProgramDesc> GpuScene::programs() {
                                       {.textures = base_color, .transforms = base_color, .masked = true}}) {
     const FirstLayer first;
     for (const CasterDraw& which :
-         {CasterDraw{}, {.marks = true}, {.marks = true, .last_pose = true}, {.behind = &first}})
+         {CasterDraw{.anchored = false}, {}, {.marks = true}, {.marks = true, .last_pose = true}, {.behind = &first}})
       programs.push_back(caster_program(which, traits));
   }
   return programs;

@@ -76,13 +76,13 @@ struct CasterDraw {
   bool marks = false;                  // writes 1 to fragment output 0
   bool last_pose = false;              // draws the last pose instead of the present one
   const FirstLayer* behind = nullptr;  // draws only what lies behind these depths
+  bool anchored = true;                // positions are taken less an anchor
 };
 
 // What the program that draws a surface's depth depends on. Nothing unless an alpha test cuts parts out of it.
 SurfaceTraits depth_traits(const Instance& instance, bool masked);
 // The program that draws the depth of casters as `which` says, where their alpha passes if they are masked.
 gl::ProgramDesc caster_program(const CasterDraw& which, const SurfaceTraits& traits);
-void set_matrix(const gl::Program& program, const CasterMatrix& matrix);
 
 // A pose on the GPU: the deformed vertices at one time.
 struct PosedVertices {
