@@ -120,8 +120,8 @@ HiddenLight hidden_light(Receiver receiver, float radius, bool one_height, float
     bvec4 is_blocker = greaterThan(blocks, vec4(0.0));
     vec4 low = mix(vec4(1e30), heights, is_blocker), high = mix(vec4(0.0), heights, is_blocker);
     hidden.least_height = min(hidden.least_height, min(min(low.x, low.y), min(low.z, low.w)));
-    hidden.least_height =
-        min(hidden.least_height, least_height_behind(receiver, at, square.offsets, bias, light));
+    if (one_height)
+      hidden.least_height = min(hidden.least_height, least_height_behind(receiver, at, square.offsets, bias, light));
     hidden.most_height = max(hidden.most_height, max(max(high.x, high.y), max(high.z, high.w)));
     hidden.everywhere = hidden.everywhere && all(greaterThan(blocks + step(end * end, squared), vec4(0.0)));
     at = next_square(at, texels);
