@@ -57,6 +57,18 @@ void release(penumbra_device& device, bool context_is_lost) {
   device.objects.reset();
 }
 
+// Whatever the engine's log function throws, the device is gone.
+void warn_of_leftovers(const std::exception_ptr& no_context) noexcept {
+  try {
+    std::rethrow_exception(no_context);
+  } catch (const std::exception& error) {
+    try {
+      warn("a device is destroyed, but not what it has made in OpenGL: {}", error.what());
+    } catch (...) {  // NOLINT(bugprone-empty-catch)
+    }
+  }
+}
+
 void check_context(bool is_there) {
   if (!is_there) fail_with(PENUMBRA_ERROR_CONTEXT, "the device's OpenGL context is not current on this thread");
 }
@@ -116,11 +128,11 @@ penumbra_result penumbra_device_destroy(penumbra_device* device) {
       try {
         penumbra::gl::check_context_is_current("penumbra_device_destroy()");
         check_context(scope.finds_context());
-      } catch (const std::exception& error) {
+      } catch (const std::exception&) {
         no_context = std::current_exception();
-        penumbra::warn("a device is destroyed, but not what it has made in OpenGL: {}", error.what());
       }
       release(*device, /*context_is_lost=*/no_context != nullptr);
+      if (no_context) warn_of_leftovers(no_context);
     }
     call.reset();
     delete device;

@@ -108,7 +108,7 @@ class BufferLoader {
     if (buffer.contains("uri")) {
       const auto& uri = buffer["uri"].get_ref<const std::string&>();
       if (!viewed) {
-        open_uri(document_.folder, uri, document_.options);  // for its faults
+        open_uri(document_.folder, uri, document_.options);  // for its faults; its length is not looked at
         return {};
       }
       bytes = load(uri);
