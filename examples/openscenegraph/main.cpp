@@ -131,6 +131,26 @@ void check(const SoftShadows& shadows, osgViewer::Viewer& viewer, const Scene& s
   if (found.points == 0 || found.rms >= most_rms) throw std::runtime_error("the shadows are not where rays find them");
 }
 
+// Frees what the shadows have made in OpenGL, also where a frame fails. A window that was closed has taken its context
+// and all that belongs to it with it.
+class ReleasesAtEnd {
+ public:
+  ReleasesAtEnd(const SoftShadows& shadows, osgViewer::Viewer& viewer) : shadows_(shadows), viewer_(viewer) {}
+  ~ReleasesAtEnd() {
+    if (viewer_.getCamera()->getGraphicsContext()->makeCurrent()) {
+      shadows_.release();
+    } else {
+      shadows_.abandon();
+    }
+  }
+  ReleasesAtEnd(const ReleasesAtEnd&) = delete;
+  ReleasesAtEnd& operator=(const ReleasesAtEnd&) = delete;
+
+ private:
+  const SoftShadows& shadows_;
+  osgViewer::Viewer& viewer_;
+};
+
 void run(osg::ArgumentParser& arguments) {
   const Options options = read_options(arguments);
   penumbra::api::Settings settings(options.technique);
@@ -143,6 +163,7 @@ void run(osg::ArgumentParser& arguments) {
   viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
   place_camera(viewer, options);
   FrameGraph frame = make_frame(viewer, *scene.root, *scene.carousel, to_sun, settings);
+  const ReleasesAtEnd releases(*frame.shadows, viewer);
   viewer.addEventHandler(new ResizeHandler(frame));
   viewer.realize();
   for (int i = 0; !viewer.done() && (options.window() || i < options.frames); ++i) {
@@ -150,11 +171,10 @@ void run(osg::ArgumentParser& arguments) {
     viewer.frame();
   }
 
-  // A window that was closed has taken its context and all that belongs to it with it.
+  // Else the window was closed.
   if (!viewer.getCamera()->getGraphicsContext()->makeCurrent()) return;
   if (!options.picture.empty()) write_picture(options);
   if (options.check) check(*frame.shadows, viewer, scene, to_sun, options);
-  frame.shadows->release();
 }
 
 }  // namespace

@@ -35,6 +35,10 @@ class SoftShadows : public osg::Camera::DrawCallback {
 
   // Frees all OpenGL objects, while the context is current.
   void release() const { device_.reset(); }
+  // Forgets them, once the context is gone.
+  void abandon() const {
+    if (device_) device_->abandon();
+  }
 
  private:
   void draw_casters(osg::RenderInfo& info, const penumbra_caster_pass& pass) const;
