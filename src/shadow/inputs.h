@@ -101,8 +101,8 @@ struct CasterPass {
   glm::mat4 world_to_clip{1};  // of this frame, also for moved_last
   // The same for positions less an anchor in the layer: gl_Position = anchored.to_clip * vec4(position -
   // anchored.anchor, 1). Far from the world's origin world_to_clip has too few digits: under lamps from about 50 m,
-  // under suns from 2 km on, surfaces would shadow themselves. Use one of both
-  // in all passes of a light. For kind `geometry` the anchor is 0.
+  // under suns from 2 km on, surfaces would shadow themselves. Use one of both in all passes of a light. For kind
+  // `geometry` the anchor is 0.
   AnchoredMatrix anchored;
   CullVolume cull;
   LightSource source;  // of the light: where only one face of a surface casts shadows, which one faces the light

@@ -13,8 +13,7 @@ std::vector<Param> rows() {
       {"history.alpha", 0.1f, 0.01, 1, "", "Weight of the present frame in the blend."},
       {"history.mean", false, 0, 1, "",
        "Averages all frames equally until a new one would weigh less than history.alpha or 1/31, and narrows "
-       "filter.visibility "
-       "as frames add up."},
+       "filter.visibility as frames add up."},
       {"history.distance", 1.0f, 0, 100, "px",
        "How far before or behind a receiver's plane, in widths of a pixel, the last frame's surface may lie."},
       {"history.turn", 30.0f, 0, 180, "deg",
