@@ -3,6 +3,7 @@
 // lit, or below it and is in shadow.
 #include "lib/rows.glsl"
 #include "shadow/decide.glsl"
+#include "shadow/second_layer.glsl"
 #include "shadow/drivers/tiles.glsl"
 #include "shadow/drivers/tile_lists.glsl"
 
@@ -196,12 +197,89 @@ bool may_read_beyond_rim(Hull hull) {
   return false;
 }
 
-// What becomes of a tile.
-const int tile_decided = 0, tile_listed = 1, tile_at_rim = 2;
+#if maps_layers == 2
+layout(binding = UNIT_second_layer_edges) uniform sampler2DArray second_layer_edges;
 
-// Decides all pixels of a tile, if that is possible.
-int decide_tile(Pixels pixels, out Decision decision) {
+const float least_overlap = 1e-3;  // pixels: of a penumbra whose width is not known, or 0
+
+// Whether a surface of the second layer ends where that matters to receivers within these half widths: `deepest` and
+// `shallowest` are those farthest from the light and nearest to it. `radius`: bounds their discs.
+bool second_layer_ends(Receiver deepest, Receiver shallowest, float radius, vec2 half_widths, Light light) {
+  Light of_shallowest = own_light(shallowest, light);
+  float margin = (2.0 + bias_normal_offset) * texel_size(deepest, light);
+  int i = 0;
+  do {
+    vec2 stored = least_in_rectangle(second_layer_edges, deepest.position, half_widths + radius + margin, light);
+    bool matters = stored_depth(-stored.x, of_shallowest) > shallowest.position.z;
+    radius = matters ? narrowed_radius(deepest, radius, stored_depth(stored.y, light), light) : 0.0;
+  } while (++i < 3 && radius > 0.0);
+  return radius > 0.0;
+}
+
+// Whether a surface of the second layer lies above a pixel that the light's layer shows, and well below the first one.
+bool is_below_second_layer(ivec2 pixel, Light light) {
+  if (is_sky(pixel)) return false;
+  Receiver receiver = receiver_at(pixel);
+  if (!faces_light(receiver) || is_outside(receiver) || !reads_layer(receiver, light)) return false;
+  receiver = seen_by_layer(receiver, light.layer);
+  light = own_light(receiver, light);
+  receiver = offset_receiver(receiver, light);
+  vec2 at = texel_place(receiver, vec2(0.0), light), first = floor(at);
+  Offsets offsets = footprint_offsets(receiver, vec2(0.0), at - first, light);
+  vec4 heights = heights_above(receiver, depths_behind(ivec2(first), light), offsets);
+  vec4 most = least_share_of_height * heights_above(receiver, depths_from(ivec2(first), light), offsets);
+  vec4 is_lower = vec4(lessThan(heights, most));
+  return any(greaterThan(is_lower * heights, vec4(depth_bias(receiver, light))));
+}
+
+// The width in pixels of the widest penumbra of a box in which casters may overlap, so that the second layer hides
+// light which the first one does not; 0 if they do not. They do not where no surface of the second layer ends, and no
+// receiver lies below one.
+float overlap_in(Pixels pixels, Box box, Light light) {
+  vec2 half_widths = 0.5 * (box.high.xy - box.low.xy);
+  float box_radius = max(half_widths.x, half_widths.y);
+  Receiver deepest = receiver_in_box(box, box.high.z, light);
+  Receiver shallowest = receiver_in_box(box, box.low.z, light);
+  Light widest = with_widest_layer(deepest, light);
+  float radius = most_blocking_radius(deepest, half_widths, light);
+  SearchRadii radii = search_radii(shallowest, deepest, box_radius, widest);
+  Layers layers = layers_of(shallowest, deepest, radii, box_radius, light);
+  bool overlap = false;
+  int layer = layers.first;
+  do {
+    light = with_layer(light, layer);
+    overlap = overlap || second_layer_ends(deepest, shallowest, radius, half_widths, light);
+    ivec2 at = pixels.low;
+    do {
+      overlap = overlap || is_below_second_layer(at, light);
+      at = next_pixel(at, pixels);
+    } while (!overlap && at.y < pixels.high.y);
+  } while (!overlap && ++layer <= layers.last);
+  float width = pixel_width(view_position_of(deepest));
+  return overlap ? max(2.0 * radius / width, least_overlap) : 0.0;
+}
+
+// The same for a tile.
+float overlap_in(Pixels pixels, Hull hull) {
+  float width = 0.0;
+  for (int left = sights_of(hull); left != 0; left &= left - 1) {
+    Box box;
+    Light light = frame_light();
+    bool bounded = box_of(hull, findLSB(left), box, light);
+    width = max(width, bounded ? overlap_in(pixels, box, light) : least_overlap);
+  }
+  return width;
+}
+#endif
+
+// What becomes of a tile.
+const int tile_decided = 0, tile_listed = 1, tile_apart = 2;
+
+// Decides all pixels of a tile, if that is possible. `overlap`: else, the width in pixels of the widest penumbra in
+// which casters may overlap; 0 if they do not, or no second layer is read.
+int decide_tile(Pixels pixels, out Decision decision, out float overlap) {
   decision = Decision(uvec2(~0u), 0.0, 0.0, 0);
+  overlap = 0.0;
   vec2 range = depth_range(pixels);
   if (range.x > range.y) return tile_decided;
   TileState tile = TileState(uvec2(0u), 0, 0, 0.0, Decision(uvec2(0u), 0.0, 0.0, 0));
@@ -219,7 +297,12 @@ int decide_tile(Pixels pixels, out Decision decision) {
   ivec2 size = pixels.high - pixels.low;
   bool all_decided = bitCount(tile.decided.x) + bitCount(tile.decided.y) == size.x * size.y;
   if (all_decided && !failed) return tile_decided;
-  return !bounded && has_faces(frame_light()) || may_read_beyond_rim(hull) ? tile_at_rim : tile_listed;
+  bool apart = !bounded && has_faces(frame_light()) || may_read_beyond_rim(hull);
+#if maps_layers == 2
+  overlap = bounded ? overlap_in(pixels, hull) : least_overlap;
+  apart = apart || overlap > 0.0;
+#endif
+  return apart ? tile_apart : tile_listed;
 }
 
 // The pixels of a tile of the viewport.

@@ -1,14 +1,6 @@
 // Computes the two finest levels of a layer's depth pyramid: each invocation reads 8 × 8 texels of the shadow map with
 // the row around them, and writes their 2 × 2 blocks.
-#include "shadow/light_projection.glsl"
-
-// Long rows: a group reads the map's texels in the order in which a linear texture has them in memory.
-layout(local_size_x = 32, local_size_y = 2) in;
-layout(binding = 0, rg32f) uniform writeonly restrict image2DArray blocks;
-layout(binding = 1, rg32f) uniform writeonly restrict image2DArray squares;  // of 2 × 2 blocks
-
-uniform int layer;
-uniform ivec4 drawn;  // the lowest and the highest texel that casters were drawn to
+#include "shadow/depth_blocks.glsl"
 
 // A row of eight texels, with the one before them and the one after them.
 struct Row {
@@ -26,8 +18,6 @@ struct Blocks {
 vec4 depths_at_edges(vec4 a, vec4 b, float height) {
   return mix(vec4(1.0), min(a, b), greaterThan(abs(a - b), vec4(height)));
 }
-
-float least_of(vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
 
 void add_edges_between(Row row, Row next, float height, inout Blocks two) {
   two.edges_left = min(two.edges_left, depths_at_edges(row.left, next.left, height));
@@ -56,12 +46,6 @@ void read_rows(ivec2 corner, Light light, out Row row, out Row next) {
   next.left = vec4(cells[0].y, cells[1].xy, cells[2].x);
   next.right = vec4(cells[2].y, cells[3].xy, cells[4].x);
   next.ends = vec2(cells[0].x, cells[4].y);
-}
-
-// Whether casters were drawn to all texels of a block and of the row around it, as far as the map has them.
-bool is_drawn(ivec2 block) {
-  ivec2 first = max(4 * block - 1, ivec2(0)), last = min(4 * block + 4, last_texel());
-  return all(greaterThanEqual(first, drawn.xy)) && all(lessThanEqual(last, drawn.zw));
 }
 
 // Least depth of a block, and the least beside an edge. Blocks that no receiver reads count as empty: what the map

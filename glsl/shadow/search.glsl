@@ -13,23 +13,34 @@ struct DepthBounds {
   float edge;  // beside an edge of the map
 };
 
-// Bounds over a rectangle of these half widths and a little beyond, in the texels of a level.
-DepthBounds rectangle_bounds(vec3 position, vec2 radius, int level, Light light) {
+// The least of both values of a pyramid of this kind over a rectangle of these half widths and a little beyond, in the
+// texels of a level.
+vec2 least_in_rectangle(sampler2DArray pyramid, vec3 position, vec2 radius, int level, Light light) {
   ivec2 last = max(last_texel(), 0) >> (level + 2);
   TexelRange range = pyramid_range(position, radius, light, pyramid_base, level, last);
   vec2 stored = vec2(1.0);
   ivec2 at = range.low;
   do {
-    stored = min(stored, texelFetch(shadow_pyramid, ivec3(at, light.layer), level).xy);
+    stored = min(stored, texelFetch(pyramid, ivec3(at, light.layer), level).xy);
     at = next_texel(at, range);
   } while (at.y <= range.high.y);
-  return DepthBounds(stored_depth(stored.x, light), stored_depth(stored.y, light));
+  return stored;
 }
 
 // The same in at most 5 × 5 texels.
+vec2 least_in_rectangle(sampler2DArray pyramid, vec3 position, vec2 radius, Light light) {
+  int level = pyramid_level(position, 0.25 * radius, light, pyramid_base, textureQueryLevels(pyramid));
+  return least_in_rectangle(pyramid, position, radius, level, light);
+}
+
+DepthBounds rectangle_bounds(vec3 position, vec2 radius, int level, Light light) {
+  vec2 stored = least_in_rectangle(shadow_pyramid, position, radius, level, light);
+  return DepthBounds(stored_depth(stored.x, light), stored_depth(stored.y, light));
+}
+
 DepthBounds depth_bounds(vec3 position, vec2 radius, Light light) {
-  int level = pyramid_level(position, 0.25 * radius, light, pyramid_base, textureQueryLevels(shadow_pyramid));
-  return rectangle_bounds(position, radius, level, light);
+  vec2 stored = least_in_rectangle(shadow_pyramid, position, radius, light);
+  return DepthBounds(stored_depth(stored.x, light), stored_depth(stored.y, light));
 }
 
 // The finest level at which a disc touches at most 2 × 2 texels.

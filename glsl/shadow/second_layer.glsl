@@ -1,7 +1,14 @@
 // The surfaces behind those that the map shows, for techniques that read them where maps.layers is 2.
 #include "shadow/light.glsl"
 
-#if maps_layers == 2
+#ifndef maps_layers
+#define maps_layers 1  // of techniques that need no second layer
+#endif
+
+// Receivers below which no casters overlap need not read them.
+#define READS_SECOND_LAYER (maps_layers == 2 && READS_ALL != 0)
+
+#if READS_SECOND_LAYER
 layout(binding = UNIT_second_layer) uniform sampler2DArray second_layer;
 
 // Depth of the surface in a texel, metres; the far plane's where there is none.

@@ -91,7 +91,7 @@ bool heights_differ(HiddenLight hidden) { return hidden.least_height < least_sha
 // The least height, metres, of what blocks in these texels behind what the map shows; a large number where nothing
 // does.
 float least_height_behind(Receiver receiver, ivec2 first, Offsets offsets, float bias, Light light) {
-#if maps_layers == 2
+#if READS_SECOND_LAYER
   vec4 depths = depths_behind(first, light);
   vec4 heights = receiver.position.z - depths;
   vec4 low = mix(vec4(1e30), heights, lessThan(depths, blocking_depths_at(receiver, offsets, bias)));

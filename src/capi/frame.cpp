@@ -122,8 +122,7 @@ penumbra_caster_pass pass_of(const shadow::CasterPass& casters, penumbra_device&
   }
   const glm::vec4 place = shadow::place_of(casters.source);
   std::copy_n(glm::value_ptr(place), 4, pass.light_place);
-  pass.first_depth_texture = casters.first.texture;
-  pass.first_depth_gap = casters.first.gap;
+  pass.second_depth_gap = casters.gap;
   if (casters.kind == shadow::CasterKind::geometry) {
     const CasterProgram& program = texts_of(casters.program, device);
     pass.program_id = program.id;

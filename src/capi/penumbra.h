@@ -259,8 +259,8 @@ typedef struct penumbra_light {
 
   /** Shadow maps of a sun or a spot that the engine has drawn; id 0 (default): none, penumbra_frame.draw draws them.
    * Any depth format, or R32F (an array of it is refused with the techniques pcf_hardware and pcf_poisson, whose
-   * samplers compare); 0 is near the light, 1 far, unless maps_reversed says otherwise. A GL_TEXTURE_2D_ARRAY with a
-   * layer for each map, or an atlas: see maps_atlas. */
+   * samplers compare, and with maps.layers=2); 0 is near the light, 1 far, unless maps_reversed says otherwise. A
+   * GL_TEXTURE_2D_ARRAY with a layer for each map, or an atlas: see maps_atlas. */
   penumbra_texture maps;
   int32_t maps_size;               /**< width and height of each map, texels */
   int32_t maps_count;              /**< 1 to 8; default 0 */
@@ -303,10 +303,10 @@ enum {
   PENUMBRA_PASS_MOVED_NOW = 2,
   /** Casters that moved, at their last positions, with world_to_clip of this frame; colour output 0 is 1. */
   PENUMBRA_PASS_MOVED_LAST = 3,
-  /** All casters, behind the nearest (only with the parameter maps.layers=2). The fragment shader discards unless
-   *   gl_FragCoord.z > texelFetch(first, ivec3(gl_FragCoord.xy, layer), 0).x + gap
-   * where `first` (sampler2DArray) is first_depth_texture, which the callback binds, and `gap` first_depth_gap. Of
-   * closed objects draw only faces that face the light, else their undersides hide what lies below them. */
+  /** All casters (only with the parameter maps.layers=2). Colour output 0, a float that is cleared to 1, must end as
+   * the least depth behind the nearest caster: the fragment shader writes gl_FragCoord.z + second_depth_gap, and
+   * discards nothing but what an alpha test does. The library has set the depth test and the blending for it. Of closed
+   * objects draw only faces that face the light, else their undersides hide what lies below them. */
   PENUMBRA_PASS_SECOND_DEPTH = 4,
   /** Triangles for shaders of the library (only with the technique shadow_volume): see geometry_shader. */
   PENUMBRA_PASS_GEOMETRY = 5
@@ -329,8 +329,8 @@ typedef struct penumbra_caster_pass {
   double cull_planes[6][4]; /**< a caster of which every point p has dot(plane.xyz, p) + plane.w < 0 for one of these
                                planes need not be drawn; world space, xyz of unit length; all 0: unused */
   float light_place[4];     /**< world: xyz the direction to a sun and w 0, or the centre of a lamp and w 1 */
-  uint32_t first_depth_texture; /**< PENUMBRA_PASS_SECOND_DEPTH: OpenGL's name of a GL_TEXTURE_2D_ARRAY; else 0 */
-  float first_depth_gap;        /**< PENUMBRA_PASS_SECOND_DEPTH: in stored depths, at least 2^-22 */
+  float second_depth_gap;   /**< PENUMBRA_PASS_SECOND_DEPTH: in stored depths; else 0 */
+  uint32_t reserved_2;      /**< 0 */
   /** PENUMBRA_PASS_GEOMETRY: the text of a geometry shader, and of a fragment shader, for a program of the engine's;
    * else null. The engine compiles them with a vertex shader of its own, which writes gl_Position = world_to_clip *
    * world position and no other output, and draws each triangle once, as GL_TRIANGLES: opaque casters, and alpha-tested

@@ -40,6 +40,7 @@ constexpr std::array rules{
     Rule{"filter.edge", "filter.visibility", "box"},
     Rule{"filter.edge", "filter.visibility", "gaussian"},
     Rule{"maps.gap", "maps.layers", "1"},
+    Rule{"maps.overlap", "maps.layers", "1"},
     Rule{"mask.tiles", "mask.scale", "2"},
     Rule{"mask.tiles", "mask.scale", "3"},
     Rule{"mask.tiles", "mask.scale", "4"},

@@ -56,10 +56,6 @@ scene::CasterMatrix matrix_of(const shadow::CasterPass& casters) {
   return {.to_clip = casters.anchored.to_clip, .anchor = casters.anchored.anchor};
 }
 
-scene::FirstLayer first_layer_of(const shadow::CasterPass& casters) {
-  return {.texture = casters.first.texture, .layer = casters.layer, .gap = casters.first.gap};
-}
-
 }  // namespace
 
 std::vector<shadow::Light> shadow_lights(std::span<const FrameLight> lights, std::span<const int> ids) {
@@ -98,7 +94,7 @@ shadow::Mask draw_shadow_mask(gl::Device& device, const ShadowMaskInputs& inputs
     } else {
       const auto reaches = [&](const scene::Bounds& box) { return overlap_of(casters.cull, box_of(box)); };
       if (casters.kind == shadow::CasterKind::second_depth) {
-        inputs.scene.draw_casters_behind(device, pass, first_layer_of(casters), matrix_of(casters), reaches);
+        inputs.scene.draw_casters_behind(device, pass, casters.gap, matrix_of(casters), reaches);
       } else {
         inputs.scene.draw_casters(device, pass, casters_of(casters.kind), matrix_of(casters), reaches);
       }

@@ -45,13 +45,6 @@ struct CasterMatrix {
   glm::vec3 anchor{0};
 };
 
-// Depths that an earlier pass left, for drawing what lies behind them.
-struct FirstLayer {
-  unsigned texture = 0;  // OpenGL name of an array of depths
-  int layer = 0;         // of the array
-  float gap = 0;         // least difference of depths
-};
-
 // A scene on the GPU: one set of vertex buffers, one index buffer and one instance buffer for all primitives. `scene`
 // must outlive this object and stay unchanged.
 class GpuScene {
@@ -84,9 +77,10 @@ class GpuScene {
   // that overlaps in part, `reaches` is asked for its parts too.
   void draw_casters(gl::Device& device, gl::Pass& pass, CasterSubset casters, const CasterMatrix& matrix,
                     const BoxOverlap& reaches);
-  // Draws the depth of all casters behind the first layer: of double-sided materials both faces, of others only the
-  // face towards the light, unless they were told to cast from their back faces.
-  void draw_casters_behind(gl::Device& device, gl::Pass& pass, const FirstLayer& first, const CasterMatrix& matrix,
+  // Draws all casters, and writes their depths + `gap` to fragment output 0, for passes that keep what is behind a
+  // first layer: of double-sided materials both faces, of others only the face towards the light, unless they were told
+  // to cast from their back faces.
+  void draw_casters_behind(gl::Device& device, gl::Pass& pass, float gap, const CasterMatrix& matrix,
                            const BoxOverlap& reaches);
   // Draws the triangles of opaque and masked casters with caster_geometry_programs(stages), without the alpha test of
   // masked surfaces. Where only one face casts, a triangle whose other face is towards the light has all corners in one

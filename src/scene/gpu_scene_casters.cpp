@@ -37,15 +37,6 @@ Batch caster_batch(const Instance& instance, CasterFaces faces, bool masked, boo
   return batch;
 }
 
-constexpr GLuint first_layer_unit = 13;  // glsl/scene/caster.frag; below it are the units of materials
-
-void bind_first_layer(gl::Device& device, const gl::Program& program, const FirstLayer& first) {
-  device.sampler({}).bind(first_layer_unit);
-  gl::glBindTextureUnit(first_layer_unit, first.texture);
-  program.set("map_layer", first.layer);
-  program.set("least_gap", first.gap);
-}
-
 }  // namespace
 
 SurfaceTraits depth_traits(const Instance& instance, bool masked) {
@@ -57,7 +48,7 @@ SurfaceTraits depth_traits(const Instance& instance, bool masked) {
 }
 
 gl::ProgramDesc caster_program(const CasterDraw& which, const SurfaceTraits& traits) {
-  const bool behind = which.behind != nullptr;
+  const bool behind = which.behind.has_value();
   gl::ProgramDesc program{.name = traits.masked ? "alpha caster" : "caster",
                           .vertex = "scene/caster.vert",
                           .defines = {{"LAST_POSE", which.last_pose ? "1" : "0"},
@@ -82,7 +73,7 @@ void GpuScene::State::draw_casters(gl::Device& device, gl::Pass& pass, const Cas
       if (!(instance.moved ? which.moved : which.still)) continue;
       const Overlap overlap = reaches(which.last_pose ? instance.last_box : instance.box);
       if (overlap == Overlap::none) continue;
-      const Batch batch = caster_batch(instance, faces_of(instance, which.behind != nullptr), masked, flips);
+      const Batch batch = caster_batch(instance, faces_of(instance, which.behind.has_value()), masked, flips);
       if (overlap == Overlap::all || instance.parts == nullptr || which.last_pose) {
         list.add(instance, i, batch);
         continue;
@@ -95,7 +86,7 @@ void GpuScene::State::draw_casters(gl::Device& device, gl::Pass& pass, const Cas
       const gl::Program& program = pass.use(caster_program(which, traits));
       program.set("anchored_to_clip", matrix.to_clip);
       program.set("anchor", matrix.anchor);
-      if (which.behind != nullptr) bind_first_layer(device, program, *which.behind);
+      if (which.behind) program.set("gap", *which.behind);
     };
     draw(device, pass, list, use);
   }
@@ -124,9 +115,9 @@ void GpuScene::draw_casters(gl::Device& device, gl::Pass& pass, CasterSubset cas
   }
 }
 
-void GpuScene::draw_casters_behind(gl::Device& device, gl::Pass& pass, const FirstLayer& first,
-                                   const CasterMatrix& matrix, const BoxOverlap& reaches) {
-  state_->draw_casters(device, pass, {.still = true, .moved = true, .behind = &first}, matrix, reaches);
+void GpuScene::draw_casters_behind(gl::Device& device, gl::Pass& pass, float gap, const CasterMatrix& matrix,
+                                   const BoxOverlap& reaches) {
+  state_->draw_casters(device, pass, {.still = true, .moved = true, .behind = gap}, matrix, reaches);
 }
 
 }  // namespace penumbra::scene

@@ -263,9 +263,8 @@ std::vector<gl::ProgramDesc> GpuScene::programs() {
                                       {.masked = true},
                                       {.textures = base_color, .masked = true},
                                       {.textures = base_color, .transforms = base_color, .masked = true}}) {
-    const FirstLayer first;
     for (const CasterDraw& which :
-         {CasterDraw{.anchored = false}, {}, {.marks = true}, {.marks = true, .last_pose = true}, {.behind = &first}})
+         {CasterDraw{.anchored = false}, {}, {.marks = true}, {.marks = true, .last_pose = true}, {.behind = 0.0f}})
       programs.push_back(caster_program(which, traits));
   }
   return programs;

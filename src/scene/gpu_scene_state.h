@@ -73,10 +73,10 @@ struct Run {
 // Which casters a draw includes, and what it writes.
 struct CasterDraw {
   bool still = false, moved = false;
-  bool marks = false;                  // writes 1 to fragment output 0
-  bool last_pose = false;              // draws the last pose instead of the present one
-  const FirstLayer* behind = nullptr;  // draws only what lies behind these depths
-  bool anchored = true;                // positions are taken less an anchor
+  bool marks = false;                // writes 1 to fragment output 0
+  bool last_pose = false;            // draws the last pose instead of the present one
+  std::optional<float> behind = {};  // what may lie behind other casters: writes depths + that gap to output 0
+  bool anchored = true;              // positions are taken less an anchor
 };
 
 // What the program that draws a surface's depth depends on. Nothing unless an alpha test cuts parts out of it.

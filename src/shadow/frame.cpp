@@ -63,10 +63,12 @@ ReadLight read_light(const MaskInputs& from, const Light& light, ViewState& view
           take_params(state, {.registry = from.registry, .defaults = from.defaults, .values = from.params}, light)};
 }
 
-// Samplers compare the depths of a depth format alone. Copies have one.
+// Samplers and depth tests compare the depths of a depth format alone. Copies have one.
 void check_compared_maps(const Light& light, const TextureChecks& checked, const Technique& technique,
-                         const Wanted& wanted) {
-  const auto compares = [](const Recipe* recipe) { return recipe->sampler.compare; };
+                         const ParamSet& params, const Wanted& wanted) {
+  const auto compares = [&](const Recipe* recipe) {
+    return recipe->sampler.compare || (recipe->tests_depths && (!recipe->applies || recipe->applies(params)));
+  };
   if (std::ranges::none_of(wanted.recipes, compares) || light.maps->is_copied()) return;
   if (checked.source_of(*light.maps).can_compare) return;
   fail("soft shadows: the maps of light {} are R32F, whose depths technique '{}' can't compare: use a depth format",
@@ -104,7 +106,9 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   begin_frame(view, state, light, layer_count(light, state.params), same_params);
   if (std::exchange(state.bound_forward, frame.binds_forward) != frame.binds_forward) state.changed = true;
   frame.shape = shape_of(light.source, state.params);
-  shown.near_penumbrae = find_near_penumbrae(work, shown.visible, wanted.recipes, view);
+  const NearPenumbrae near = find_near_penumbrae(work, shown.visible, wanted.recipes, view);
+  shown.near_penumbrae = near.receivers;
+  take_layers(state, near.wide_overlap || state.params.get_float("maps.overlap") == 0 || frame.binds_forward);
   frame.projection = projection_of(work, shown, wanted.recipes);
   if (frame.shape.lamp && technique.suns_only) {
     fail("soft shadows: light {} is a lamp, and technique '{}' is for suns alone", light.id, technique.name);
@@ -112,7 +116,7 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   if (frame.shape.square && light.maps && std::abs(std::sin(2 * frame.projection.cascades().turn)) > 1e-3) {
     fail("soft shadows: the maps of light {} are turned about its rays, which a square sun does not allow", light.id);
   }
-  if (light.maps) check_compared_maps(light, view.checked, technique, wanted);
+  if (light.maps) check_compared_maps(light, view.checked, technique, state.params, wanted);
   take_shape(state, frame.shape);
   // Whether anything is visible, and so what the maps are fitted to, may change though nothing else does.
   if (fits_to_view(state.params)) state.drawn_texels.reset();

@@ -76,16 +76,11 @@ enum class CasterKind {
                     // colour writes, then those that moved, writing 1
   moved_now,        // casters that moved, at their present positions; output 0 is 1
   moved_last,       // casters that moved, at their last positions; output 0 is 1
-  second_depth,     // all casters, behind the nearest: see CasterPass::first; no colour output
+  second_depth,     // all casters; output 0, cleared to 1, must end as the least depth behind the nearest one: see
+                    // CasterPass::gap
   geometry,         // triangles for the technique's own shaders: see CasterPass::program. Opaque casters, and
                     // alpha-tested ones as whole triangles; no blended surfaces. A triangle that casts no shadow,
                     // because only the surface's other face does, is left out or has all corners in one place
-};
-
-// For the kind `second_depth`: the shadow map that holds what is nearest to the light.
-struct FirstDepth {
-  unsigned texture = 0;  // OpenGL name of an array of stored depths, with the layers of the pass
-  float gap = 0;         // of stored depths; at least 2^-22, since GPUs round what shaders see in another way
 };
 
 // One call to the caller's code: draw these casters with these matrices. The framebuffer, viewport, scissor, depth test
@@ -106,13 +101,13 @@ struct CasterPass {
   AnchoredMatrix anchored;
   CullVolume cull;
   LightSource source;  // of the light: where only one face of a surface casts shadows, which one faces the light
-  // For the kind `second_depth`: what the map holds there is the nearest surface behind the first one. The fragment
-  // shader discards a fragment unless
-  //   gl_FragCoord.z > texelFetch(first, ivec3(gl_FragCoord.xy, layer), 0).x + gap
-  // (Everitt 2001, "Interactive order-independent transparency": depth peeling). The callback binds the texture. Of
-  // surfaces whose back faces are never seen, such as those of closed objects, only faces towards the light should be
-  // drawn: else the second layer of an object is its own underside, and what lies below it is lost.
-  FirstDepth first = {};
+  // For the kind `second_depth`: the fragment shader writes gl_FragCoord.z + gap to output 0, discards what an alpha
+  // test discards, and nothing else. The pass tests against the depths of the shadow map itself, lets what is
+  // behind them pass, and blends so that the least stays (Everitt 2001, "Interactive order-independent transparency":
+  // depth peeling); its matrices bring surfaces nearer to the light by the gap (maps.gap). Of surfaces whose back faces
+  // are never seen, such as those of closed objects, only faces towards the light should be drawn: else the second
+  // layer of an object is its own underside, and what lies below it is lost.
+  float gap = 0;
   // For kind `geometry`: the technique's geometry and fragment shaders and their defines, without a vertex shader. The
   // callback adds its own vertex shader, which writes gl_Position = world_to_clip * world position (the matrix may be
   // the identity) and no other output that later stages read, and draws each triangle once, as GL_TRIANGLES. It must
@@ -123,9 +118,10 @@ struct CasterPass {
 using DrawCasters = std::function<void(const CasterPass&, gl::Pass&)>;
 
 // A shadow map that the caller has already drawn: a depth texture array, or R32F (which is refused with the techniques
-// pcf_hardware and pcf_poisson, whose samplers compare), with LightProjection::given_layers() layers; 0 is near, 1 far.
-// Or an atlas, a GL_TEXTURE_2D whose parts are copied to an array in each frame. Copied as well are maps of which none
-// holds all others: a further one that does is made from them.
+// pcf_hardware and pcf_poisson, whose samplers compare, and where a second layer is drawn behind it), with
+// LightProjection::given_layers() layers; 0 is near, 1 far. Or an atlas, a GL_TEXTURE_2D whose parts are copied to an
+// array in each frame. Copied as well are maps of which none holds all others: a further one that does is made from
+// them.
 struct FinishedMaps {
   TextureView depth;
   LightProjection projection;

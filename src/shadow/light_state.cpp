@@ -79,12 +79,21 @@ bool take_params(LightState& state, const GivenParams& given, const Light& light
   state.given = given.values;
   state.overrides = light.overrides;
   state.params = std::move(own);
+  state.asked_layers = state.params.get_int("maps.layers");
   state.programs.clear();
   state.samples.clear();
   if (!same) state.drawn_texels.reset();
   state.uploaded = false;
   state.changed = true;
   return same;
+}
+
+void take_layers(LightState& state, bool second_layer) {
+  const int layers = second_layer ? state.asked_layers : 1;
+  if (state.params.get_int("maps.layers") == layers) return;
+  state.params.set("maps.layers", layers);
+  state.programs.clear();
+  state.changed = true;
 }
 
 void take_shape(LightState& state, const LightShape& shape) {

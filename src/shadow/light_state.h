@@ -27,6 +27,7 @@ struct LightState {
   // The parameters of the last frame, as given and with the light's overrides applied; rebuilt only when either
   // changes.
   ParamSet given, params;
+  int asked_layers = 1;  // maps.layers as given; in `params` it is 1 where the second one is left out
   std::vector<std::string> overrides;
   // The programs of techniques, recipes and denoisers under these parameters, by owner.
   std::map<std::string, std::vector<gl::ProgramDesc>, std::less<>> programs;
@@ -132,6 +133,8 @@ struct GivenParams {
 // Sets the light's parameters for this frame, with the light's overrides applied. Returns whether all those that
 // concern the chosen technique and denoiser have the values of the last frame.
 bool take_params(LightState& state, const GivenParams& given, const Light& light);
+// Sets maps.layers for this frame: what is asked for, or 1.
+void take_layers(LightState& state, bool second_layer);
 // Sets the light's size and shape, which programs and sample points depend on.
 void take_shape(LightState& state, const LightShape& shape);
 // Decides whether the history of the light's last frame is valid in this one.

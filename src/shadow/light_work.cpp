@@ -23,6 +23,14 @@ std::vector<Denoiser::Remembered> remembered_by(const Denoiser* denoiser, const 
   return denoiser->remembers(params);
 }
 
+bool needs_second_layer(const Technique& technique) {
+  return std::ranges::find(technique.needs, "second_layer") != technique.needs.end();
+}
+
+bool reads_second_layer(const Technique& technique, const ParamSet& params) {
+  return needs_second_layer(technique) && params.get_int("maps.layers") == 2;
+}
+
 const Product* find_product(const LightFrame& frame, std::string_view name) {
   const auto found = std::ranges::find(frame.products, name, &Product::name);
   return found == frame.products.end() ? nullptr : &*found;

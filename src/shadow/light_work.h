@@ -38,6 +38,10 @@ const Technique& forward_technique(const Registry& registry, const ParamSet& par
 const Denoiser* denoiser_for(const Registry& registry, const Technique& technique, const ParamSet& params);
 std::vector<Denoiser::Remembered> remembered_by(const Denoiser* denoiser, const ParamSet& params);
 
+// Whether a technique reads the second layer of the map (product second_layer): ever, and with these parameters.
+bool needs_second_layer(const Technique& technique);
+bool reads_second_layer(const Technique& technique, const ParamSet& params);
+
 // Null if this frame made no product of that name.
 const Product* find_product(const LightFrame& frame, std::string_view name);
 

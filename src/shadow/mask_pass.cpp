@@ -69,7 +69,7 @@ Programs::MaskForm form_of(const LightWork& work, const MaskOutput& output) {
 
 void compute_all(const LightWork& work, const MaskOutput& output) {
   Programs::MaskForm form = form_of(work, output);
-  form.rim = has_rims(work);
+  form.reads_all = lists_apart(work);
   const gl::ProgramDesc mask = work.programs.mask(work.technique, work.params(), form);
   const Rect& viewport = work.frame.viewport;
   if (form.compute) {
@@ -97,16 +97,16 @@ void fill_decided(const LightWork& work, const MaskOutput& output, const Tiles& 
   draw_tiles(pass, tiles.list, decided_draw_offset);
 }
 
-// The listed tiles, or those of them that are at a rim.
+// The listed tiles, or those of them that are listed apart.
 void compute_list(const LightWork& work, const MaskOutput& output, const Tiles& tiles, Programs::MaskForm form,
                   gl::Pass& pass) {
   const gl::Program& program = use(pass, work, work.programs.mask(work.technique, work.params(), form), output);
   if (form.compute) {
     bind_images(program, output);
     tiles.list.bind_storage(tile_list_binding);
-    pass.dispatch_indirect(tiles.list, form.rim ? rim_dispatch_offset : listed_dispatch_offset);
+    pass.dispatch_indirect(tiles.list, form.reads_all ? apart_dispatch_offset : listed_dispatch_offset);
   } else {
-    draw_tiles(pass, tiles.list, form.rim ? rim_draw_offset : listed_draw_offset);
+    draw_tiles(pass, tiles.list, form.reads_all ? apart_draw_offset : listed_draw_offset);
   }
 }
 
@@ -114,14 +114,16 @@ void compute_listed(const LightWork& work, const MaskOutput& output, const Tiles
   Programs::MaskForm form = form_of(work, output);
   form.tiles = true;
   compute_list(work, output, tiles, form, pass);
-  if (!has_rims(work)) return;
-  form.rim = true;
+  if (!lists_apart(work)) return;
+  form.reads_all = true;
   compute_list(work, output, tiles, form, pass);
 }
 
 }  // namespace
 
 bool has_rims(const LightWork& work) { return work.frame.shape.lamp && work.frame.projection.layers() > 1; }
+
+bool lists_apart(const LightWork& work) { return has_rims(work) || reads_second_layer(work.technique, work.params()); }
 
 const gl::Texture* run_mask_pass(const LightWork& work, const MaskOutput& output) {
   if (!decides_tiles(work)) {
@@ -160,7 +162,7 @@ void run_for_pixels(const LightWork& work, const gl::Buffer& list) {
   const Programs::MaskForm form{.compiled = Programs::compiled_for(work.technique, work.params(), work.frame.shape),
                                 .compute = true,
                                 .listed_pixels = true,
-                                .rim = has_rims(work)};
+                                .reads_all = lists_apart(work)};
   const MaskOutput output{.mask = &work.mask, .layer = work.frame.layer};
   gl::Pass pass(work.device, {.name = "missing pixels"});
   const gl::Program& program = use(pass, work, work.programs.mask(work.technique, work.params(), form), output);

@@ -23,6 +23,8 @@ Tiles fill_decided_tiles(const LightWork& work);
 
 // Whether a receiver may read beyond the rim of the map that sees it, where the next face of a cube goes on.
 bool has_rims(const LightWork& work);
+// Whether tiles are listed apart whose receivers may read what others do not: beyond a rim, or the second layer.
+bool lists_apart(const LightWork& work);
 
 // Runs the technique's visibility() for the listed pixels of the light's layer of the mask, always in compute shaders.
 void run_for_pixels(const LightWork& work, const gl::Buffer& list);

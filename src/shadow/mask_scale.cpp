@@ -140,9 +140,9 @@ void upsample(const LightWork& work, const ScaledMask& scaled, int scale) {
       use(Programs::UpsampledTiles::all);
       pass.dispatch(viewport.width, viewport.height);
     }
-    if (decides && has_rims(work)) {
-      use(Programs::UpsampledTiles::at_rim);
-      pass.dispatch_indirect(list, rim_dispatch_offset);
+    if (decides && lists_apart(work)) {
+      use(Programs::UpsampledTiles::listed_apart);
+      pass.dispatch_indirect(list, apart_dispatch_offset);
     }
   }
   run_for_pixels(work, list);

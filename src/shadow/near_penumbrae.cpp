@@ -1,6 +1,7 @@
 #include "near_penumbrae.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "depth_normals.h"
@@ -33,11 +34,12 @@ void release_first_maps(const LightWork& work) {
   work.state.first.reset();
 }
 
-ParamSet params_of_first_maps(ParamSet params) {
+// The second layer shows what overlaps, which nobody asks for without maps.overlap.
+ParamSet params_of_first_maps(ParamSet params, int asked_layers) {
   const int side = params.get_int("cascades.size");
   params.set("cascades.size", std::max(side / side_divisor, std::min(side, least_side)));
   params.set("sun.angle", std::max(params.get_float("sun.angle"), least_angle));
-  params.set("maps.layers", 1);
+  params.set("maps.layers", params.get_float("maps.overlap") > 0 ? asked_layers : 1);
   return params;
 }
 
@@ -46,7 +48,7 @@ LightState& state_of_first_maps(const LightWork& work) {
   if (first == nullptr) {
     first = std::make_unique<LightState>();
     first->prefix = work.prefix() + "first maps/";
-    first->params = params_of_first_maps(work.params());
+    first->params = params_of_first_maps(work.params(), work.state.asked_layers);
   }
   first->follows = work.state.follows;
   begin_frame(work.view, *first, work.light, layer_count(work.light, first->params), /*same_params=*/false);
@@ -62,10 +64,11 @@ VisibleReceivers widened(VisibleReceivers visible) {
   return visible;
 }
 
-// Of what the frame's recipes make, tile decisions read this alone.
-void build_pyramid(const LightWork& first, const std::vector<const Recipe*>& recipes) {
+// Of what the frame's recipes make, tile decisions read these alone.
+void build_pyramids(const LightWork& first, const std::vector<const Recipe*>& recipes) {
+  constexpr std::array read{"least_depth_pyramid", "second_layer", "second_layer_edges"};
   for (const Recipe* recipe : recipes) {
-    if (recipe->name == "least_depth_pyramid") {
+    if (std::ranges::find(read, recipe->name) != read.end()) {
       build_products(first, {recipe});
     } else {
       first.frame.products.push_back({.name = recipe->name, .texture = nullptr, .sampler = recipe->sampler});
@@ -73,11 +76,23 @@ void build_pyramid(const LightWork& first, const std::vector<const Recipe*>& rec
   }
 }
 
+// The width in pixels that penumbrae as wide as maps.overlap says have under the first maps' sun; 0: nothing is asked.
+float wide_overlap(const LightWork& work, const LightWork& first) {
+  if (first.params().get_int("maps.layers") == 1) return 0;
+  const float widened = first.frame.shape.extent / std::max(shape_of(work.light.source, work.params()).extent, 1e-6f);
+  return work.params().get_float("maps.overlap") * static_cast<float>(work.frame.viewport.height) * widened;
+}
+
+// What fills less of the picture is hardly seen, and drawing a second layer for it takes as long.
+bool are_many(std::uint32_t tiles, const glm::ivec2& of) {
+  constexpr double least_share = 0.001;
+  return static_cast<double>(tiles) > least_share * static_cast<double>(of.x) * static_cast<double>(of.y);
+}
+
 }  // namespace
 
-std::optional<VisibleReceivers> find_near_penumbrae(const LightWork& work,
-                                                    const std::optional<VisibleReceivers>& visible,
-                                                    const std::vector<const Recipe*>& recipes, ViewState& view) {
+NearPenumbrae find_near_penumbrae(const LightWork& work, const std::optional<VisibleReceivers>& visible,
+                                  const std::vector<const Recipe*>& recipes, ViewState& view) {
   const bool asks = asks_for_penumbrae(work);
   if (!asks || work.state.changed) release_first_maps(work);
   if (!asks) return {};
@@ -110,9 +125,12 @@ std::optional<VisibleReceivers> find_near_penumbrae(const LightWork& work,
   draw_maps(first);
   upload_blocks(first);
   make_normals(first, view);
-  build_pyramid(first, recipes);
-  const Tiles tiles = decide_tiles(first);
-  return find_visible_receivers(work.device, work.inputs, work.light, work.params(), first.prefix(), &tiles.decisions);
+  build_pyramids(first, recipes);
+  const float wide = wide_overlap(work, first);
+  const Tiles tiles = decide_tiles(first, wide);
+  return {.receivers = find_visible_receivers(work.device, work.inputs, work.light, work.params(), first.prefix(),
+                                              &tiles.decisions),
+          .wide_overlap = wide > 0 && are_many(overlapping_tiles(tiles), tile_count(frame.viewport))};
 }
 
 }  // namespace penumbra::shadow

@@ -14,8 +14,13 @@ namespace penumbra::shadow {
 // maps, unless they are kept, and the CPU waits for the GPU; normals that are made from depth are made here. The first
 // maps are released in the first frame that does not ask for them. `visible`: see find_visible_receivers(). `recipes`:
 // those that the frame makes.
-std::optional<VisibleReceivers> find_near_penumbrae(const LightWork& work,
-                                                    const std::optional<VisibleReceivers>& visible,
-                                                    const std::vector<const Recipe*>& recipes, ViewState& view);
+//
+// With `maps.overlap` the first maps have a second layer, too, and show whether the light's need one.
+struct NearPenumbrae {
+  std::optional<VisibleReceivers> receivers;
+  bool wide_overlap = false;  // casters overlap in penumbrae of that width
+};
+NearPenumbrae find_near_penumbrae(const LightWork& work, const std::optional<VisibleReceivers>& visible,
+                                  const std::vector<const Recipe*>& recipes, ViewState& view);
 
 }  // namespace penumbra::shadow

@@ -28,6 +28,11 @@ const char* name_of(PassOwner::Kind kind) {
   return "technique";
 }
 
+// Takes that from the depths of what a matrix transforms, which it leaves as they are, to the bit, if it is 0.
+void bring_nearer(glm::mat4& to_clip, float depth) {
+  for (glm::length_t i = 0; i < 4; ++i) to_clip[i].z -= depth * to_clip[i].w;
+}
+
 }  // namespace
 
 std::string target_prefix(const LightWork& work, const PassOwner& owner) {
@@ -162,10 +167,9 @@ void PassContext::draw_casters(gl::Pass& pass, CasterKind kind, int layer) const
 
 void PassContext::draw_second_depth(gl::Pass& pass, int layer, float gap) const {
   CasterPass casters = caster_pass(CasterKind::second_depth, layer);
-  // Some GPUs compute a fragment's depth for shaders apart from the one that they store: up to four steps of a float.
-  constexpr float rounding = 4 * 0x1p-24f;
-  casters.first = {.texture = work_.frame.depth,
-                   .gap = std::max(gap / work_.frame.projection.depth_range(layer), rounding)};
+  casters.gap = gap / work_.frame.projection.depth_range(layer);
+  bring_nearer(casters.world_to_clip, casters.gap);
+  bring_nearer(casters.anchored.to_clip, casters.gap);
   work_.inputs.draw(casters, pass);
 }
 

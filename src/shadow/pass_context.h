@@ -98,8 +98,8 @@ class PassContext {
   // Draws the caller's casters in a pass whose attachments have the size of a shadow map's layer; not for the kinds
   // `geometry` and `second_depth`. Throws Error without Inputs::draw.
   void draw_casters(gl::Pass& pass, CasterKind kind, int layer) const;
-  // Draws them with kind `second_depth`: only what lies deeper than the shadow map by more than `gap` metres
-  // and a few steps of a float.
+  // Draws them with kind `second_depth`, in a pass that tests for depths greater than the shadow map's and keeps the
+  // least colour: of what lies more than `gap` metres behind the map.
   void draw_second_depth(gl::Pass& pass, int layer, float gap) const;
   // Draws the triangles of the caller's casters with the geometry and fragment shaders of one of the owner's
   // `programs`: gl_in[].gl_Position is world_to_clip times the world position. Binds the same inputs as use(). Casters

@@ -38,7 +38,7 @@ std::vector<ParamSet> compiled_variants(const std::vector<Param>& own, const Par
   return variants;
 }
 
-std::vector<Programs::MaskForm> mask_forms(const Programs::Compiled& compiled, bool decides_tiles) {
+std::vector<Programs::MaskForm> mask_forms(const Programs::Compiled& compiled, bool decides_tiles, bool second_layer) {
   std::vector<Programs::MaskForm> forms;
   forms.push_back({.compiled = compiled, .compute = true, .listed_pixels = true});
   for (Programs::MaskForm form{.compiled = compiled}; const bool compute : {false, true}) {
@@ -58,10 +58,10 @@ std::vector<Programs::MaskForm> mask_forms(const Programs::Compiled& compiled, b
       }
     }
   }
-  if (!compiled.lamp) return forms;
+  if (!compiled.lamp && !second_layer) return forms;
   const std::vector<Programs::MaskForm> others = forms;
   for (Programs::MaskForm form : others) {
-    form.rim = true;
+    form.reads_all = true;
     forms.push_back(form);
   }
   return forms;
@@ -216,8 +216,8 @@ gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& param
   program.defines.push_back({"HISTORY", form.history ? "1" : "0"});
   program.defines.push_back({"TILES", form.tiles ? "1" : "0"});
   program.defines.push_back({"SCALED", form.scaled ? "1" : "0"});
-  program.defines.push_back({"RIM", form.rim ? "1" : "0"});
-  program.defines.push_back({"RIM_LIST", form.rim && !form.listed_pixels ? "1" : "0"});
+  program.defines.push_back({"READS_ALL", form.reads_all ? "1" : "0"});
+  program.defines.push_back({"LISTED_APART", form.reads_all && !form.listed_pixels ? "1" : "0"});
   if (form.compute) {
     program.compute = driver_file(technique, "mask.comp");
     program.defines.push_back({"LISTED_PIXELS", form.listed_pixels ? "1" : "0"});
@@ -229,12 +229,14 @@ gl::ProgramDesc Programs::mask(const Technique& technique, const ParamSet& param
   return program;
 }
 
-gl::ProgramDesc Programs::decide_tiles(const Technique& technique, bool lamp) const {
+gl::ProgramDesc Programs::decide_tiles(const Technique& technique, const DecideForm& form) const {
   const std::string folder = folder_of(owner_of(technique));
-  return {.name = "decide tiles",
-          .compute = including(folder, {folder + "/preamble.glsl", "shadow/drivers/decide_tiles.comp"}),
-          // It reads no sample points, but the preamble of a technique that has some asks for it.
-          .defines = {{"SAMPLE_SCRAMBLE", "0"}, {"LAMP", lamp ? "1" : "0"}}};
+  return {
+      .name = "decide tiles",
+      .compute = including(folder, {folder + "/preamble.glsl", "shadow/drivers/decide_tiles.comp"}),
+      // It reads no sample points, but the preamble of a technique that has some asks for it.
+      .defines = {
+          {"SAMPLE_SCRAMBLE", "0"}, {"LAMP", form.lamp ? "1" : "0"}, {"maps_layers", form.second_layer ? "2" : "1"}}};
 }
 
 gl::ProgramDesc Programs::decided(const MaskForm& form) const {
@@ -258,7 +260,7 @@ gl::ProgramDesc Programs::upsample(UpsampledTiles tiles, bool details) const {
   return ready({.desc = {.name = "upsample mask",
                          .compute = "shadow/drivers/upsample.comp",
                          .defines = {{"TILES", tiles == UpsampledTiles::all ? "0" : "1"},
-                                     {"RIM_LIST", tiles == UpsampledTiles::at_rim ? "1" : "0"},
+                                     {"LISTED_APART", tiles == UpsampledTiles::listed_apart ? "1" : "0"},
                                      {"DETAILS", details ? "1" : "0"}}}});
 }
 
@@ -355,7 +357,7 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
       programs.push_back(decided(decided_form));
     }
   }
-  for (const UpsampledTiles tiles : {UpsampledTiles::all, UpsampledTiles::listed, UpsampledTiles::at_rim}) {
+  for (const UpsampledTiles tiles : {UpsampledTiles::all, UpsampledTiles::listed, UpsampledTiles::listed_apart}) {
     for (const bool details : {false, true}) programs.push_back(upsample(tiles, details));
   }
   for (const MovementForm form : {MovementForm::average, MovementForm::maximum}) {
@@ -368,7 +370,8 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
     for (const ParamSet& params :
          compiled_variants(params_of(technique.params, technique.needs, registry_), defaults)) {
       for (const Compiled& compiled : all_compiled(technique)) {
-        for (const MaskForm& form : mask_forms(compiled, technique.decides_tiles)) {
+        for (const MaskForm& form :
+             mask_forms(compiled, technique.decides_tiles, reads_second_layer(technique, params))) {
           const bool runs = form.listed_pixels ? !technique.resolve : !form.tiles || technique.decides_tiles;
           if (technique.glsl.empty() || !runs) continue;
           programs.push_back(mask(technique, params, form));
@@ -377,8 +380,12 @@ std::vector<gl::ProgramDesc> Programs::all(const ParamSet& defaults) const {
     }
     add_own(programs, owner_of(technique), defaults);
     if (!technique.decides_tiles) continue;
-    programs.push_back(decide_tiles(technique, /*lamp=*/false));
-    if (!technique.suns_only) programs.push_back(decide_tiles(technique, /*lamp=*/true));
+    for (const bool second_layer : {false, true}) {
+      if (second_layer && !needs_second_layer(technique)) continue;
+      programs.push_back(decide_tiles(technique, {.second_layer = second_layer}));
+      if (!technique.suns_only)
+        programs.push_back(decide_tiles(technique, {.lamp = true, .second_layer = second_layer}));
+    }
   }
   return programs;
 }

@@ -50,18 +50,22 @@ class Programs {
     bool history = false;        // packed, and the notes say whether the history is valid
     bool tiles = false;          // over the listed tiles alone
     bool listed_pixels = false;  // for a list of pixels alone; compute, not packed
-    bool details = false;  // decided tiles alone: the mask has, or will have, more than one channel, or is a lamp's
-    bool rim = false;      // for receivers that may read beyond the rim of the face of a lamp's cube that sees them
+    bool details = false;    // decided tiles alone: the mask has, or will have, more than one channel, or is a lamp's
+    bool reads_all = false;  // for receivers that may read what few do: see lists_apart()
   };
   gl::ProgramDesc mask(const Technique& technique, const ParamSet& params, const MaskForm& form) const;
   // The programs that decide tiles and that fill the mask with them.
-  gl::ProgramDesc decide_tiles(const Technique& technique, bool lamp) const;
+  struct DecideForm {
+    bool lamp = false;
+    bool second_layer = false;  // the technique reads one
+  };
+  gl::ProgramDesc decide_tiles(const Technique& technique, const DecideForm& form) const;
   gl::ProgramDesc decided(const MaskForm& form) const;
   // The program that lists the tiles that filters can change.
   gl::ProgramDesc filter_tiles(bool keeps_narrow) const;
   // The program that interpolates a mask between every n-th pixel: in all tiles, in those that are listed, or in those
-  // that are listed as at a rim. `details`: the mask has more than one channel.
-  enum class UpsampledTiles : std::uint8_t { all, listed, at_rim };
+  // that are listed apart. `details`: the mask has more than one channel.
+  enum class UpsampledTiles : std::uint8_t { all, listed, listed_apart };
   gl::ProgramDesc upsample(UpsampledTiles tiles, bool details) const;
   // The program that filters pixels with noise that are listed one by one, and the one that stores the results.
   gl::ProgramDesc filter_noisy(bool stores) const;

@@ -35,6 +35,8 @@ struct Recipe {
   bool depends_only_on_needs = false;
   // Whether what receivers read of it depends on the maps only as Technique::reads_light_discs says.
   bool reads_light_discs = false;
+  // Whether its passes test depths against the shadow map itself, which must then have a depth format.
+  bool tests_depths = false;
   // Whether it is made with these parameters; absent: always. If not, its unit has no texture, and GLSL that needs it
   // must not read it; which it knows from the recipe's compiled parameters.
   std::function<bool(const ParamSet&)> applies = {};

@@ -56,7 +56,8 @@ namespace penumbra::shadow {
   X(cssm_terms)              \
   X(greatest_depth_pyramid)  \
   X(depth_sums)              \
-  X(second_layer)
+  X(second_layer)            \
+  X(second_layer_edges)
 
 using MakeTechnique = Technique();
 using MakeFilter = Filter();

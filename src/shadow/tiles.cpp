@@ -78,11 +78,14 @@ Tiles undecided(const LightWork& work, const TileNames& names, ListedPixels pixe
           begin_tile_list(context, names.list, {of_mask.width, of_mask.height}, pixels)};
 }
 
-Tiles decide(const LightWork& work, const TileNames& names, ListedPixels pixels) {
+Tiles decide(const LightWork& work, const TileNames& names, ListedPixels pixels, float wide_overlap) {
   const Tiles tiles = undecided(work, names, pixels);
   gl::Pass pass(work.device, {.name = "tile decisions"});
-  const gl::Program& program = pass.use(work.programs.decide_tiles(work.technique, work.frame.shape.lamp));
+  const gl::Program& program = pass.use(work.programs.decide_tiles(
+      work.technique,
+      {.lamp = work.frame.shape.lamp, .second_layer = reads_second_layer(work.technique, work.params())}));
   bind_inputs(work, owner_of(work.technique));
+  program.set("wide_overlap", wide_overlap);
   tiles.decisions.bind_image(0, GL_WRITE_ONLY);
   tiles.list.bind_storage(tile_list_binding);
   dispatch_decisions(pass, program, tile_count(work.frame.viewport));
@@ -91,9 +94,17 @@ Tiles decide(const LightWork& work, const TileNames& names, ListedPixels pixels)
 
 }  // namespace
 
-Tiles decide_tiles(const LightWork& work) { return decide(work, usual_names, ListedPixels::none); }
+Tiles decide_tiles(const LightWork& work, float wide_overlap) {
+  return decide(work, usual_names, ListedPixels::none, wide_overlap);
+}
 
-Tiles decide_all_tiles(const LightWork& work) { return decide(work, names_of_all, listed_pixels(work)); }
+std::uint32_t overlapping_tiles(const Tiles& tiles) {
+  TileListHead head;
+  gl::glGetNamedBufferSubData(tiles.list.id(), 0, sizeof(head), &head);
+  return head.wide_overlaps;
+}
+
+Tiles decide_all_tiles(const LightWork& work) { return decide(work, names_of_all, listed_pixels(work), 0); }
 
 Tiles scaled_tiles(const LightWork& scaled, const TilesOfAll& of_all) {
   const Tiles tiles = undecided(scaled, usual_names, ListedPixels::none);

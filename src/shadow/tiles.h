@@ -28,23 +28,24 @@ constexpr GLuint tile_list_binding = 7;  // storage buffer
 struct TileListHead {
   gl::DispatchCommand dispatch_listed{256, 0, 1};
   gl::DrawArraysCommand draw_listed, draw_decided;
-  gl::DispatchCommand dispatch_rim{256, 0, 1};
-  gl::DrawArraysCommand draw_rim;
+  gl::DispatchCommand dispatch_apart{256, 0, 1};
+  gl::DrawArraysCommand draw_apart;
   gl::DispatchCommand dispatch_pixels{0, 0, 1};
   std::uint32_t pixel_count = 0;
   gl::DispatchCommand dispatch_noisy{0, 0, 1};
   std::uint32_t noisy_count = 0;
+  std::uint32_t wide_overlaps = 0;
   std::uint32_t capacity = 0;
 };
 
-static_assert(sizeof(TileListHead) == 108, "must match TileList in glsl/shadow/drivers/tiles.glsl");
+static_assert(sizeof(TileListHead) == 112, "must match TileList in glsl/shadow/drivers/tiles.glsl");
 
 // Where the commands are in the list, bytes.
 constexpr std::size_t listed_dispatch_offset = offsetof(TileListHead, dispatch_listed);
 constexpr std::size_t listed_draw_offset = offsetof(TileListHead, draw_listed);
 constexpr std::size_t decided_draw_offset = offsetof(TileListHead, draw_decided);
-constexpr std::size_t rim_dispatch_offset = offsetof(TileListHead, dispatch_rim);
-constexpr std::size_t rim_draw_offset = offsetof(TileListHead, draw_rim);
+constexpr std::size_t apart_dispatch_offset = offsetof(TileListHead, dispatch_apart);
+constexpr std::size_t apart_draw_offset = offsetof(TileListHead, draw_apart);
 constexpr std::size_t pixels_dispatch_offset = offsetof(TileListHead, dispatch_pixels);
 constexpr std::size_t noisy_dispatch_offset = offsetof(TileListHead, dispatch_noisy);
 
@@ -69,12 +70,15 @@ bool decides_tiles(const LightWork& work);
 // Runs a program that decides tiles: its main function asks tile_of_invocation() (glsl/shadow/decide_tile.glsl).
 void dispatch_decisions(gl::Pass& pass, const gl::Program& program, const glm::ivec2& tiles);
 
-// In a pass of its own.
-Tiles decide_tiles(const LightWork& work);
+// In a pass of its own. `wide_overlap`: see overlapping_tiles().
+Tiles decide_tiles(const LightWork& work, float wide_overlap = 0);
+// In how many of these tiles casters overlap in penumbrae of at least `wide_overlap` pixels. Waits for the GPU.
+std::uint32_t overlapping_tiles(const Tiles& tiles);
 // The same for all pixels of a view of which every n-th is computed (mask_scale.h); their list has room for all pixels.
 Tiles decide_all_tiles(const LightWork& work);
 // Those of every n-th pixel: decided where all tiles of all pixels that they lie in are, unless one of these faces away
-// and another is blocked. With `has_rims` the others are listed as at a rim.
+// and another is blocked. The others are listed apart where one of these is, and
+// with `has_rims` all.
 struct TilesOfAll {
   const Tiles& tiles;
   const Rect& viewport;

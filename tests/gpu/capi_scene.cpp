@@ -162,11 +162,7 @@ int32_t CInterface::draw(void* user, const penumbra_caster_pass* pass) {
   const bool last = pass->kind == PENUMBRA_PASS_MOVED_LAST;
   gl::glUniform1i(place("only_moved"), last || pass->kind == PENUMBRA_PASS_MOVED_NOW ? 1 : 0);
   gl::glUniform1f(place("poses_ago"), last ? 1.0f : 0.0f);
-  if (pass->kind == PENUMBRA_PASS_SECOND_DEPTH) {
-    gl::glBindTextureUnit(15, pass->first_depth_texture);
-    gl::glUniform1i(place("map_layer"), pass->layer);
-    gl::glUniform1f(place("gap"), pass->first_depth_gap);
-  }
+  if (pass->kind == PENUMBRA_PASS_SECOND_DEPTH) gl::glUniform1f(place("gap"), pass->second_depth_gap);
   self.geometry_->draw();
   return 0;
 }

@@ -19,18 +19,21 @@ constexpr double pi = 3.14159265358979323846;
 constexpr float high = 4, low = 1, low_edge = -0.05f;
 constexpr float angle = 8;
 
-TriangleScene two_half_planes() {
+// `height`: of the picture. Below that of a tile, all pixels are computed.
+TriangleScene half_planes(bool both, int height) {
   TriangleScene scene;
   scene.add_quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
-  scene.add_quad({-12, low, -12}, {0, 0, 24}, {12 + low_edge, 0, 0});
+  if (both) scene.add_quad({-12, low, -12}, {0, 0, 24}, {12 + low_edge, 0, 0});
   scene.add_quad({-12, high, -12}, {0, 0, 24}, {12, 0, 0});
   scene.receivers = shadow::Box{{-1, 0, -1}, {1, 0, 1}};
   scene.width = 128;
-  scene.height = 4;
+  scene.height = height;
   scene.view = glm::lookAt(glm::vec3(0, 0.5f, 0), glm::vec3(0), glm::vec3(0, 0, -1));
-  scene.projection = orthographic(0.5f, 0.5f / 32, 0.01f, 1);
+  scene.projection = orthographic(0.5f, 0.5f * static_cast<float>(height) / 128, 0.01f, 1);
   return scene;
 }
+
+TriangleScene two_half_planes() { return half_planes(/*both=*/true, 4); }
 
 // The share of a disc that is not hidden by half-planes with parallel edges: of those above a receiver at x, that whose
 // edge crosses the disc farthest hides the most, and the others nothing that it does not hide.
@@ -43,8 +46,8 @@ double exact(double x, bool both) {
 }
 
 // The largest error over the picture, of the mean of some seeds.
-double worst_error(TriangleRenderer& renderer, int layers, bool both) {
-  const TriangleScene scene = two_half_planes();
+double worst_error(TriangleRenderer& renderer, int layers, bool both, int height = 4) {
+  const TriangleScene scene = half_planes(/*both=*/true, height);
   ParamSet params = renderer.params();
   params.set("technique", std::string("slices"));
   params.set("sun.angle", angle);
@@ -77,6 +80,82 @@ TEST_F(ShadowLayers, ACasterBelowAnotherKeepsItsShadow) {
   EXPECT_LT(worst_error(*renderer_, 2, /*both=*/true), 0.02);
   EXPECT_GT(worst_error(*renderer_, 1, /*both=*/true), 0.2) << "one layer does not show the lower half-plane";
   EXPECT_LT(worst_error(*renderer_, 1, /*both=*/false), 0.02);
+}
+
+TEST_F(ShadowLayers, TilesBelowWhichCastersOverlapReadBoth) {
+  EXPECT_LT(worst_error(*renderer_, 2, /*both=*/true, 16), 0.02);
+}
+
+// All tiles are then those of one layer: others have other samples.
+TEST_F(ShadowLayers, WhereNoCastersOverlapThePictureIsThatOfOneLayer) {
+  const auto mask = [&](bool both, int layers) {
+    ParamSet params = renderer_->params();
+    params.set("technique", std::string("slices"));
+    params.set("sun.angle", angle);
+    params.set("maps.layers", layers);
+    return renderer_->render(half_planes(both, 16), params, [](shadow::Inputs& inputs) { inputs.view.cut = true; })
+        .mask;
+  };
+  EXPECT_EQ(mask(false, 2), mask(false, 1));
+  EXPECT_NE(mask(true, 2), mask(true, 1));
+}
+
+// The picture is 1 m high, and the high half-plane's penumbra 0.56 m wide.
+TEST_F(ShadowLayers, SmallMapsShowWhetherCastersOverlapInWidePenumbrae) {
+  struct Drawn {
+    std::vector<float> mask;
+    int second_layers = 0;
+  };
+  const auto draw = [&](bool both, int layers, float overlap) {
+    ParamSet params = renderer_->params();
+    params.set("technique", std::string("slices"));
+    params.set("sun.angle", angle);
+    params.set("cascades.fit", std::string("penumbrae"));
+    params.set("maps.layers", layers);
+    params.set("maps.overlap", overlap);
+    Drawn drawn;
+    drawn.mask =
+        renderer_
+            ->render(half_planes(both, 128), params,
+                     [&](shadow::Inputs& inputs) {
+                       inputs.view.cut = true;
+                       inputs.draw = [&drawn, draw = inputs.draw](const shadow::CasterPass& casters, gl::Pass& pass) {
+                         if (casters.kind == shadow::CasterKind::second_depth) ++drawn.second_layers;
+                         draw(casters, pass);
+                       };
+                     })
+            .mask;
+    return drawn;
+  };
+  const Drawn one = draw(true, 1, 0), two = draw(true, 2, 0);
+  ASSERT_NE(one.mask, two.mask);
+  EXPECT_EQ(one.second_layers, 0);
+  EXPECT_GT(two.second_layers, 0);
+  const Drawn wide = draw(true, 2, 0.3f), too_wide = draw(true, 2, 0.9f);
+  EXPECT_EQ(wide.mask, two.mask);
+  EXPECT_GT(wide.second_layers, two.second_layers) << "of the small maps, too";
+  EXPECT_EQ(too_wide.mask, one.mask);
+  EXPECT_LT(too_wide.second_layers, wide.second_layers);
+  EXPECT_EQ(draw(true, 2, 0.3f).mask, two.mask) << "after a frame without one";
+  EXPECT_EQ(draw(false, 2, 0.01f).mask, draw(false, 1, 0).mask) << "nothing overlaps";
+}
+
+// Whether casters overlap is known of pictures with small maps alone.
+TEST_F(ShadowLayers, OtherMapsHaveNoSecondLayerWhereItDependsOnOverlaps) {
+  for (const char* fit : {"stable", "visible"}) {
+    ParamSet params = renderer_->params();
+    params.set("technique", std::string("slices"));
+    params.set("sun.angle", angle);
+    params.set("cascades.fit", std::string(fit));
+    const auto mask = [&](int layers) {
+      params.set("maps.layers", layers);
+      return renderer_->render(half_planes(true, 16), params, [](shadow::Inputs& in) { in.view.cut = true; }).mask;
+    };
+    const std::vector<float> one = mask(1);
+    EXPECT_NE(mask(2), one) << fit;
+    params.set("maps.overlap", 0.01f);
+    EXPECT_EQ(mask(2), one) << fit;
+  }
 }
 
 TEST_F(ShadowLayers, WhatIsNearerToTheFirstSurfaceThanTheGapIsLeftOut) {
@@ -130,6 +209,37 @@ TEST_F(ShadowLayers, OnlyLayersThatHoldWhatMovedAreDrawnAgain) {
   EXPECT_EQ(frame(), all) << "the frame before had none";
   params.set("technique", std::string("pcss"));
   EXPECT_EQ(frame(corner), std::vector<int>()) << "does not read it";
+}
+
+// The pass tests against the maps' own depths.
+TEST_F(ShadowLayers, FinishedMapsOfADepthFormatCanHaveOne) {
+  const TriangleScene scene = box_on_ground(32);
+  ParamSet params = renderer_->params();
+  params.set("technique", std::string("slices"));
+  params.set("maps.layers", 2);
+  const std::vector<float> expected = renderer_->render(scene, params).mask;
+  const shadow::LightFrame made = renderer_->mask().lights[0];
+  const int size = made.projection.size();
+  const gl::Texture colour("engine's maps", {.target = GL_TEXTURE_2D_ARRAY,
+                                             .format = GL_R32F,
+                                             .width = size,
+                                             .height = size,
+                                             .layers = made.projection.layers()});
+  const auto draw_with = [&](unsigned maps) {
+    return renderer_
+        ->render(scene, params,
+                 [&](shadow::Inputs& inputs) {
+                   static std::vector<shadow::Light> lights;
+                   lights.assign(inputs.lights.begin(), inputs.lights.end());
+                   lights[0].maps = shadow::FinishedMaps{{maps, size, size}, made.projection};
+                   inputs.lights = lights;
+                 })
+        .mask;
+  };
+  EXPECT_EQ(draw_with(made.depth), expected);
+  EXPECT_EQ(
+      message_of([&] { draw_with(colour.id()); }),
+      "soft shadows: the maps of light 0 are R32F, whose depths technique 'slices' can't compare: use a depth format");
 }
 
 TEST_F(ShadowLayers, FinishedMapsWithoutCastersCannotHaveOne) {

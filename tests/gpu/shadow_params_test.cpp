@@ -97,6 +97,7 @@ TEST_F(ShadowParams, OfTechniquesChangeTheMask) {
     idle.merge(idle_of(rows, params, [&](const ParamSet& other) { return draw(other); }));
   }
   EXPECT_EQ(idle, (std::set<std::string>{"maps.gap",                // of a second layer, which is not drawn here
+                                         "maps.overlap",            // the same
                                          "pcss.disocclusion_taps",  // where a history is refused; here is none
                                          "pcss.early_exit"}));      // changes the cost alone
 }

@@ -49,12 +49,9 @@ void main() { moved = caster_moved; }
 )";
 
 constexpr const char* behind_fragment_text = R"(
-layout(binding = 15) uniform sampler2DArray first_layer;
-uniform int map_layer;
 uniform float gap;
-void main() {
-  if (gl_FragCoord.z <= texelFetch(first_layer, ivec3(gl_FragCoord.xy, map_layer), 0).x + gap) discard;
-}
+layout(location = 0) out float depth;
+void main() { depth = gl_FragCoord.z + gap; }
 )";
 
 const gl::ProgramDesc receiver_program{
@@ -182,11 +179,7 @@ shadow::DrawCasters Geometry::casters() const {
     program.set("world_to_clip", casters.world_to_clip);
     program.set("only_moved", casters.kind == moved_now || casters.kind == moved_last ? 1 : 0);
     program.set("poses_ago", casters.kind == moved_last ? 1.0f : 0.0f);
-    if (casters.kind == second_depth) {
-      gl::glBindTextureUnit(15, casters.first.texture);
-      program.set("map_layer", casters.layer);
-      program.set("gap", casters.first.gap);
-    }
+    if (casters.kind == second_depth) program.set("gap", casters.gap);
     draw();
   };
 }

@@ -2,8 +2,8 @@
 // LISTED_PIXELS 1 those of a list.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#ifndef RIM_LIST
-#define RIM_LIST 0  // 1: the tiles at the rim of a cube's face
+#ifndef LISTED_APART
+#define LISTED_APART 0  // 1: the tiles that are listed apart
 #endif
 
 #ifndef LISTED_PIXELS
@@ -20,9 +20,9 @@ ivec2 pixel_in_viewport() {
   index = index * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
   return index < tile_list.pixel_count ? listed_pixel(index) : ivec2(shadow.viewport.zw);
 #else
-#if RIM_LIST
-  if (index >= tile_list.rim.count) return ivec2(shadow.viewport.zw);
-  ivec2 tile = rim_tile(index);
+#if LISTED_APART
+  if (index >= tile_list.apart.count) return ivec2(shadow.viewport.zw);
+  ivec2 tile = apart_tile(index);
 #else
   if (index >= tile_list.listed.count) return ivec2(shadow.viewport.zw);
   ivec2 tile = listed_tile(index);

@@ -14,9 +14,11 @@ uvec4 packed_decision(Decision decision) {
   return uvec4(decision.lit, packHalf2x16(vec2(decision.blocker_distance, radius)), uint(decision.layer));
 }
 
-const uvec4 no_decision = uvec4(0u, 0u, 0u, ~0u);  // of a tile in the list of those to compute
+// Of a tile in a list of those to compute; `apart`: in the one of those that are listed apart.
+uvec4 no_decision(bool apart) { return uvec4(uint(apart), 0u, 0u, ~0u); }
 
-bool is_decided(uvec4 texel) { return texel.w != no_decision.w; }
+bool is_decided(uvec4 texel) { return texel.w != ~0u; }
+bool is_listed_apart(uvec4 texel) { return !is_decided(texel) && texel.x != 0u; }
 
 // Whether no pixel of a decided tile has a blocker distance.
 bool is_unblocked(uvec4 texel) { return (texel.z & 0xffffu) == 0u; }

@@ -8,7 +8,7 @@ layout(binding = 14) uniform usampler2D decisions_of_all;
 
 uniform ivec2 size, size_of_all;  // pixels
 uniform int scale;
-uniform int has_rims;  // the light has several faces: tiles are listed as at a rim
+uniform int has_rims;  // the light has several faces: all tiles are listed apart
 
 // Adds the pixels that a tile of all pixels decides, `at` that many tiles from the first one. Returns whether all are
 // lit.
@@ -33,12 +33,16 @@ void main() {
   if (any(greaterThanEqual(tile * tile_size, size))) return;
   Decision decision = Decision(uvec2(0u), 0.0, 0.0, 0);
   float blocked = 0.0;
-  bool decided = true, has_layer = false, faces_away = false;
-  for (int i = 0; decided && i < scale * scale; ++i) {
+  bool decided = true, apart = has_rims != 0, has_layer = false, faces_away = false;
+  for (int i = 0; i < scale * scale; ++i) {
     ivec2 at = ivec2(i % scale, i / scale);
     if (any(greaterThanEqual((scale * tile + at) * tile_size, size_of_all))) continue;
     uvec4 texel = texelFetch(decisions_of_all, scale * tile + at, 0);
-    decided = is_decided(texel);
+    if (!is_decided(texel)) {
+      decided = false;
+      apart = apart || is_listed_apart(texel);
+      continue;
+    }
     Decision part = unpacked_decision(texel);
     bool all_lit = add_bits(tile, at, part.lit, decision.lit);
     decision.radius = max(decision.radius, part.radius);
@@ -54,11 +58,11 @@ void main() {
   // A decision has one distance for all of its pixels that are not lit.
   decided = decided && !(faces_away && blocked > 0.0);
   decision.blocker_distance /= max(blocked, 1.0);
-  imageStore(decisions, tile, decided ? packed_decision(decision) : no_decision);
+  imageStore(decisions, tile, decided ? packed_decision(decision) : no_decision(apart));
   if (decided) {
     list_decided(tile);
-  } else if (has_rims != 0) {
-    list_rim_tile(tile);
+  } else if (apart) {
+    list_tile_apart(tile);
   } else {
     list_tile(tile);
   }

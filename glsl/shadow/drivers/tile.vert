@@ -3,8 +3,8 @@
 #include "shared/shadow_block.h"
 #include "shadow/drivers/tiles.glsl"
 
-#ifndef RIM_LIST
-#define RIM_LIST 0  // 1: of the tiles at the rim of a cube's face
+#ifndef LISTED_APART
+#define LISTED_APART 0  // 1: of the tiles that are listed apart
 #endif
 
 layout(std140, binding = 1) uniform ShadowData { ShadowBlock shadow; };
@@ -16,8 +16,8 @@ void main() {
   // Fragment shaders discard the pixels of other tiles that it then covers.
 #if DECIDED
   tile = decided_tile(uint(gl_VertexID));
-#elif RIM_LIST
-  tile = rim_tile(uint(gl_VertexID));
+#elif LISTED_APART
+  tile = apart_tile(uint(gl_VertexID));
 #else
   tile = listed_tile(uint(gl_VertexID));
 #endif

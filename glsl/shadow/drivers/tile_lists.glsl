@@ -5,9 +5,9 @@ void list_tile(ivec2 tile) {
   tile_list.tiles[index] = packed_tile(tile);
 }
 
-void list_rim_tile(ivec2 tile) {
-  uint index = atomicAdd(tile_list.rim.count, 1u);
-  atomicMax(tile_list.rim_groups_y, index / list_row + 1u);
+void list_tile_apart(ivec2 tile) {
+  uint index = atomicAdd(tile_list.apart.count, 1u);
+  atomicMax(tile_list.apart_groups_y, index / list_row + 1u);
   tile_list.tiles[tile_list.capacity + index] = packed_tile(tile);
 }
 

@@ -1,6 +1,6 @@
 // The texels of a layer of the map: where they lie, and what their depths are.
-#ifndef RIM
-#define RIM 1  // 0: no receiver reads beyond the rim of a map that sees it
+#ifndef READS_ALL
+#define READS_ALL 1  // 0: no receiver reads beyond the rim of a map that sees it, or the second layer
 #endif
 #include "shadow/projection/light_space.glsl"
 
@@ -47,7 +47,7 @@ float filtered_difference(float difference, Light light) {
 
 // Whether there are such faces. A macro, not a function: of a function drivers see that it is false in programs for
 // suns only after they have inlined all that is behind it, wherever a texel is read.
-#define has_faces(light) (RIM != 0 && is_lamp && (light).layers > 1)
+#define has_faces(light) (READS_ALL != 0 && is_lamp && (light).layers > 1)
 
 bool leaves_map(ivec2 low, ivec2 high) {
   return any(lessThan(low, ivec2(0))) || any(greaterThan(high, last_texel()));

@@ -19,7 +19,8 @@ void main() {
   if (!in_viewport(tile)) return;
   Pixels pixels = pixels_of(tile);
   Decision decision;
-  if (decide_tile(pixels, decision) == tile_decided) {
+  float overlap;
+  if (decide_tile(pixels, decision, overlap) == tile_decided) {
     store_tile(pixels, decision);
   } else {
     list_tile(tile);

@@ -38,8 +38,8 @@ uint rings_between(float low, float high, float dither) {
 }
 
 // Samples are denser near the receiver, where penumbrae are narrow: the share of a slice's length at which one begins
-// that lies at that share of their number. Still denser where near casters lie below far ones.
-float spread(float share, bool overlaps) { return overlaps ? share * share : share * sqrt(share); }
+// that lies at that share of their number. Still denser where near casters may lie below far ones.
+float spread(float share) { return (READS_SECOND_LAYER ? share * share : share) * sqrt(share); }
 
 // A pixel's random numbers, 0..1.
 struct PixelNoise {
@@ -70,8 +70,6 @@ struct Found {
   float blockers;
   bool overlaps;  // a near caster lies below a far one, which only the second layer shows
 };
-
-Found nothing_found(bool overlaps) { return Found(0, 0.0, 0.0, 0.0, overlaps); }
 
 // Mean height of blockers. Of a near and a far caster at one place the near one makes the narrower penumbra, which must
 // not be blurred, so there it is the harmonic mean.
@@ -121,7 +119,7 @@ Blocker add_texel(inout Found found, inout uint rings, Receiver receiver, float 
   uint hides = rings_between(low, high, dither);
   rings |= hides;
   found.height_sum += hides != 0u ? height : 0.0;
-  if (maps_layers == 2) found.nearness_sum += hides != 0u ? nearness_of(receiver, height, bias, light) : 0.0;
+  if (READS_SECOND_LAYER) found.nearness_sum += hides != 0u ? nearness_of(receiver, height, bias, light) : 0.0;
   found.blockers += hides != 0u ? 1.0 : 0.0;
   return Blocker(high, height, stretch.at);
 }
@@ -132,13 +130,13 @@ struct Counts {
 };
 
 // Under a narrow light a slice mostly crosses one edge: two thirds of slices.samples are enough, and there are more
-// slices instead. Under a wide light, and where casters overlap, it crosses several. More than two samples a texel
+// slices instead. Under a wide light, and where casters may overlap, it crosses several. More than two samples a texel
 // would read the same texels again.
-Counts counts_for(Receiver receiver, float radius, bool overlaps, Light light) {
+Counts counts_for(Receiver receiver, float radius, Light light) {
   // Of the cone to the light: its radius for each metre along the light.
   const float narrow = 0.02, wide = 0.05;
   float wideness = clamp((1.0 / cone_slope(receiver, light) - narrow) / (wide - narrow), 0.0, 1.0);
-  float share = overlaps ? 1.0 : mix(2.0 / 3.0, 1.0, wideness);
+  float share = READS_SECOND_LAYER ? 1.0 : mix(2.0 / 3.0, 1.0, wideness);
   int samples = max(int(share * float(slices_samples) + 0.5), 1);
   int azimuths = slices_azimuths * slices_samples / samples;
   samples = slices_azimuths * slices_samples / azimuths;  // what whole slices leave over
@@ -146,9 +144,9 @@ Counts counts_for(Receiver receiver, float radius, bool overlaps, Light light) {
 }
 
 // Follows a slice and adds what it finds. `share`: its place on the rim, as for rim_point(); `index`: its number among
-// the pixel's slices; `overlaps`: whether casters are known to.
-void walk(inout Found found, Receiver receiver, float share, int index, int samples, bool overlaps, float radius,
-          PixelNoise noise, float bias, Light light) {
+// the pixel's slices.
+void walk(inout Found found, Receiver receiver, float share, int index, int samples, float radius, PixelNoise noise,
+          float bias, Light light) {
   uint rings = 0u;
   float rim_texel = texel_size(receiver, light);
   vec2 texel = texel_extent(receiver, light);
@@ -160,7 +158,7 @@ void walk(inout Found found, Receiver receiver, float share, int index, int samp
   Blocker before = no_blocker, second_before = no_blocker;
   int i = 0;
   do {
-    float end = (radius + rim_texel) * spread(float(i + 1) / float(samples), overlaps);
+    float end = (radius + rim_texel) * spread(float(i + 1) / float(samples));
     float at = mix(begin, end, jitter);
     // Moved by up to half a texel: the mean over many samples then weights texels as bilinear filters do.
     vec2 moved = fract(noise.texel + plastic * float(index * slices_samples + i)) - 0.5;
@@ -169,7 +167,7 @@ void walk(inout Found found, Receiver receiver, float share, int index, int samp
     float blocking = blocking_depths_at(receiver, Offsets(vec4(offset.x), vec4(offset.y)), bias).x;
     Stretch stretch = Stretch(begin, at, end, i + 1 == samples);
     before = add_texel(found, rings, receiver, depth_at(cell, light), blocking, bias, stretch, before, dither, light);
-#if maps_layers == 2
+#if READS_SECOND_LAYER
     uint behind = 0u;
     second_before = add_texel(found, behind, receiver, depth_behind(cell, light), blocking, bias, stretch,
                               second_before, dither, light);
@@ -182,11 +180,11 @@ void walk(inout Found found, Receiver receiver, float share, int index, int samp
 }
 
 // How many times slices.azimuths slices a pixel in a penumbra gets: more where the penumbra is narrow on the screen,
-// since there no filter finds neighbours that it could average. Where casters overlap the first round does not count.
+// since there no filter finds neighbours that it could average.
 int rounds_for(Receiver receiver, Found found, Light light) {
   const int most = clamp(20000 / (slices_azimuths * (slices_samples + 2)), 1, 4);
   float width = 2.0 * penumbra_radius(receiver, mean_height(found), light) / pixel_width(view_position_of(receiver));
-  return min((found.overlaps ? 2 : 1) + int(float(slices_narrow) / max(width, 0.01)), most);
+  return min(1 + int(float(slices_narrow) / max(width, 0.01)), most);
 }
 
 Visibility visibility(Receiver receiver, Light light) {
@@ -206,26 +204,20 @@ Visibility visibility(Receiver receiver, Light light) {
     if (!filtered.heights_differ) return filtered.seen;
   }
   PixelNoise noise = noise_of(receiver);
-  Found found = nothing_found(false);
+  Found found = Found(0, 0.0, 0.0, 0.0, false);
+  Counts counts = counts_for(receiver, radius, light);
   int slices = 0, rounds = 1, turn = 0;
   do {
-    Counts counts = counts_for(receiver, radius, found.overlaps, light);
     // Each round's slices lie between those of the others.
     float first = noise.azimuth + float(turn) / float(rounds);
-    bool overlaps = found.overlaps;
     int azimuth = 0;
     do {
       float share = (float(azimuth) + first) / float(counts.azimuths);
-      walk(found, receiver, share, slices + azimuth, counts.samples, overlaps, radius, noise, bias, light);
+      walk(found, receiver, share, slices + azimuth, counts.samples, radius, noise, bias, light);
     } while (++azimuth < counts.azimuths);
     slices += counts.azimuths;
     bool in_part = found.hidden > 0 && found.hidden < ring_count * slices;
     if (turn == 0 && in_part) rounds = rounds_for(receiver, found, light);
-    // Too few samples of that round were near the receiver.
-    if (turn == 0 && found.overlaps && rounds > 1) {
-      found = nothing_found(true);
-      slices = 0;
-    }
   } while (++turn < rounds);
   if (found.hidden == 0) return fully_lit();
   float mean = mean_height(found);

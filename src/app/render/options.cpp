@@ -109,7 +109,10 @@ ParamSet params_of(const RenderOptions& options) {
   auto shadows = static_cast<const cli::ShadowOptions&>(options);
   shadows.otherwise = session::usual_technique;
   if (!options.frames && !cli::names_technique(options)) {
-    // In the first place, so that the user's own value counts.
+    // In the first place, so that the user's own values count. Who asks for two layers gets them.
+    const bool names_layers = std::ranges::any_of(
+        options.assignments, [](const std::string& assignment) { return assignment.starts_with("maps.layers="); });
+    if (!names_layers) shadows.assignments.insert(shadows.assignments.begin(), {"maps.layers=2", "maps.overlap=0.05"});
     shadows.assignments.insert(shadows.assignments.begin(), "cascades.fit=penumbrae");
   }
   return cli::resolve_params(shadows, session::all_techniques());

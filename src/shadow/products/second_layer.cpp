@@ -6,18 +6,26 @@ namespace penumbra::shadow {
 
 namespace {
 
+// A colour texture, since a depth texture can't be tested against one depth while it keeps another.
+gl::TextureDesc desc_of(const LightProjection& projection) {
+  gl::TextureDesc desc = shadow_map_desc(projection);
+  desc.format = GL_R32F;
+  return desc;
+}
+
 // What of a layer no caster is drawn to stays as it was: nothing reads it.
 const gl::Texture& build(const PassContext& context) {
   const LightProjection& projection = context.frame().projection;
-  const gl::Texture& map = context.target("depth", shadow_map_desc(projection));
+  const gl::Texture& map = context.target("depth", desc_of(projection));
   const LayerSet unchanged = context.unchanged_layers();
   const float gap = context.params().get_float("maps.gap");
   for (int i = 0; i < projection.layers(); ++i) {
     if (unchanged[static_cast<size_t>(i)]) continue;
     gl::PassDesc desc{.name = "second layer",
-                      .depth = gl::Attachment{.texture = &map, .layer = i, .clear = glm::vec4(1)},
-                      .depth_test = gl::DepthTest::less_equal,
-                      .depth_write = true};
+                      .colors = {{.texture = &map, .layer = i, .clear = glm::vec4(1)}},
+                      .depth = gl::Attachment{.texture = &context.shadow_map(), .layer = i},
+                      .depth_test = gl::DepthTest::greater,
+                      .blend = gl::Blend::min};
     desc.scissor = drawn_rect(projection, i);
     gl::Pass pass(context.device(), desc);
     context.draw_second_depth(pass, i, gap);
@@ -40,9 +48,15 @@ Recipe second_layer() {
                       "Least distance of the second layer behind the first. What is thinner counts as one surface. "
                       "Under lamps it is that long at the far plane of their maps, and shrinks with the square of the "
                       "depth.",
+                      host},
+                     {"maps.overlap", 0.0f, 0, 1, "",
+                      "Above 0, a second layer is drawn only for pictures in which casters may overlap in penumbrae "
+                      "as wide as this share of the picture's height: with cascades.fit=penumbrae, whose small maps "
+                      "show it, and never for lamps.",
                       host}},
           .depends_only_on_needs = true,
           .reads_light_discs = true,
+          .tests_depths = true,
           .applies = [](const ParamSet& params) { return params.get_int("maps.layers") == 2; },
           .build = build};
 }

@@ -11,7 +11,7 @@ Technique slices() {
           "they should.",
       .source = "bit masks along slices as in Therrien et al. 2023, for lights: docs/techniques.md",
       .glsl = "shadow/techniques/slices.glsl",
-      .needs = {"shadow_map", "least_depth_pyramid", "second_layer"},
+      .needs = {"shadow_map", "least_depth_pyramid", "second_layer", "second_layer_edges"},
       .params =
           {
               // Mesa's software rasteriser ends loops after 65,535 iterations in total, and seams draw up to three
