@@ -205,12 +205,11 @@ const float least_overlap = 1e-3;  // pixels: of a penumbra whose width is not k
 // Whether a surface of the second layer ends where that matters to receivers within these half widths: `deepest` and
 // `shallowest` are those farthest from the light and nearest to it. `radius`: bounds their discs.
 bool second_layer_ends(Receiver deepest, Receiver shallowest, float radius, vec2 half_widths, Light light) {
-  Light of_shallowest = own_light(shallowest, light);
   float margin = (2.0 + bias_normal_offset) * texel_size(deepest, light);
   int i = 0;
   do {
     vec2 stored = least_in_rectangle(second_layer_edges, deepest.position, half_widths + radius + margin, light);
-    bool matters = stored_depth(-stored.x, of_shallowest) > shallowest.position.z;
+    bool matters = stored_depth(-stored.x, light) > shallowest.position.z;
     radius = matters ? narrowed_radius(deepest, radius, stored_depth(stored.y, light), light) : 0.0;
   } while (++i < 3 && radius > 0.0);
   return radius > 0.0;
@@ -255,8 +254,8 @@ float overlap_in(Pixels pixels, Box box, Light light) {
       at = next_pixel(at, pixels);
     } while (!overlap && at.y < pixels.high.y);
   } while (!overlap && ++layer <= layers.last);
-  float width = pixel_width(view_position_of(deepest));
-  return overlap ? max(2.0 * radius / width, least_overlap) : 0.0;
+  if (!overlap) return 0.0;
+  return is_lamp ? least_overlap : max(2.0 * radius / pixel_width(view_position_of(deepest)), least_overlap);
 }
 
 // The same for a tile.

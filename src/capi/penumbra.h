@@ -305,8 +305,9 @@ enum {
   PENUMBRA_PASS_MOVED_LAST = 3,
   /** All casters (only with the parameter maps.layers=2). Colour output 0, a float that is cleared to 1, must end as
    * the least depth behind the nearest caster: the fragment shader writes gl_FragCoord.z + second_depth_gap, and
-   * discards nothing but what an alpha test does. The library has set the depth test and the blending for it. Of closed
-   * objects draw only faces that face the light, else their undersides hide what lies below them. */
+   * discards only what an alpha test does. The depth test is against the shadow map itself: leave it, the depth writes
+   * that are off, and the blending; use this pass's own matrix, which maps.gap changes. Of closed objects draw only
+   * faces that face the light, else their undersides hide what lies below them. */
   PENUMBRA_PASS_SECOND_DEPTH = 4,
   /** Triangles for shaders of the library (only with the technique shadow_volume): see geometry_shader. */
   PENUMBRA_PASS_GEOMETRY = 5

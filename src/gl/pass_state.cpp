@@ -211,6 +211,7 @@ void leave_initial_state() {
   glDepthFunc(GL_LESS);
   glStencilFunc(GL_ALWAYS, 0, all_bits);
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  glBlendEquation(GL_FUNC_ADD);
   constexpr GLuint texture_units = 16;
   constexpr GLsizei image_units = 8;
   unbind_textures(texture_units);

@@ -83,11 +83,12 @@ enum class CasterKind {
                     // because only the surface's other face does, is left out or has all corners in one place
 };
 
-// One call to the caller's code: draw these casters with these matrices. The framebuffer, viewport, scissor, depth test
-// and culling state are set; the callback binds its own programs and vertex arrays. Both sides of every triangle cast
-// shadows unless the caller decides otherwise, and polygon offset stays off. A caster that is drawn in several of these
-// passes must get bit-identical depths in each, so compute positions by the same expressions (`invariant gl_Position`).
-// The kinds from depth_and_moved to moved_last are requested only when the denoiser keeps a history.
+// One call to the caller's code: draw these casters with these matrices. The framebuffer, viewport, scissor, depth
+// test, blending and culling are set; the callback binds its own programs and vertex arrays. Both sides of every
+// triangle cast shadows unless the caller decides otherwise, and polygon offset stays off. A caster that is drawn in
+// several of these passes must get bit-identical depths in each, so compute positions by the same expressions
+// (`invariant gl_Position`). The kinds from depth_and_moved to moved_last are requested only when the denoiser keeps a
+// history.
 struct CasterPass {
   CasterKind kind = CasterKind::depth;
   // Of the light's shadow map; 0 for kind `geometry`. With cascades.fit=penumbrae also of smaller maps that are drawn
@@ -101,12 +102,12 @@ struct CasterPass {
   AnchoredMatrix anchored;
   CullVolume cull;
   LightSource source;  // of the light: where only one face of a surface casts shadows, which one faces the light
-  // For the kind `second_depth`: the fragment shader writes gl_FragCoord.z + gap to output 0, discards what an alpha
-  // test discards, and nothing else. The pass tests against the depths of the shadow map itself, lets what is
-  // behind them pass, and blends so that the least stays (Everitt 2001, "Interactive order-independent transparency":
-  // depth peeling); its matrices bring surfaces nearer to the light by the gap (maps.gap). Of surfaces whose back faces
-  // are never seen, such as those of closed objects, only faces towards the light should be drawn: else the second
-  // layer of an object is its own underside, and what lies below it is lost.
+  // For the kind `second_depth`: the fragment shader writes gl_FragCoord.z + gap to output 0, and discards only what an
+  // alpha test discards. The pass tests against the depths of the shadow map itself, which it must not write, lets what
+  // is behind them pass, and blends so that the least stays (Everitt 2001, "Interactive order-independent
+  // transparency": depth peeling); its own matrices bring surfaces nearer to the light by the gap (maps.gap). Of
+  // surfaces whose back faces are never seen, such as those of closed objects, only faces towards the light should be
+  // drawn: else the second layer of an object is its own underside, and what lies below it is lost.
   float gap = 0;
   // For kind `geometry`: the technique's geometry and fragment shaders and their defines, without a vertex shader. The
   // callback adds its own vertex shader, which writes gl_Position = world_to_clip * world position (the matrix may be

@@ -75,6 +75,7 @@ bool take_params(LightState& state, const GivenParams& given, const Light& light
   ParamSet own = given.defaults;
   for (const Param& row : own.rows()) own.set(row.name, given.values.value(row.name));
   for (const std::string& assignment : light.overrides) own.assign(assignment);
+  if (!first) state.params.set("maps.layers", state.asked_layers);
   const bool same = same_values(given.registry, state.params, own);
   state.given = given.values;
   state.overrides = light.overrides;

@@ -34,12 +34,13 @@ void release_first_maps(const LightWork& work) {
   work.state.first.reset();
 }
 
-// The second layer shows what overlaps, which nobody asks for without maps.overlap.
-ParamSet params_of_first_maps(ParamSet params, int asked_layers) {
+// The second layer shows what overlaps. Nobody asks for that without maps.overlap, or where programs of blended
+// surfaces read two layers anyway.
+ParamSet params_of_first_maps(ParamSet params, int asked_layers, bool binds_forward) {
   const int side = params.get_int("cascades.size");
   params.set("cascades.size", std::max(side / side_divisor, std::min(side, least_side)));
   params.set("sun.angle", std::max(params.get_float("sun.angle"), least_angle));
-  params.set("maps.layers", params.get_float("maps.overlap") > 0 ? asked_layers : 1);
+  params.set("maps.layers", params.get_float("maps.overlap") > 0 && !binds_forward ? asked_layers : 1);
   return params;
 }
 
@@ -48,7 +49,7 @@ LightState& state_of_first_maps(const LightWork& work) {
   if (first == nullptr) {
     first = std::make_unique<LightState>();
     first->prefix = work.prefix() + "first maps/";
-    first->params = params_of_first_maps(work.params(), work.state.asked_layers);
+    first->params = params_of_first_maps(work.params(), work.state.asked_layers, work.frame.binds_forward);
   }
   first->follows = work.state.follows;
   begin_frame(work.view, *first, work.light, layer_count(work.light, first->params), /*same_params=*/false);
@@ -78,7 +79,7 @@ void build_pyramids(const LightWork& first, const std::vector<const Recipe*>& re
 
 // The width in pixels that penumbrae as wide as maps.overlap says have under the first maps' sun; 0: nothing is asked.
 float wide_overlap(const LightWork& work, const LightWork& first) {
-  if (first.params().get_int("maps.layers") == 1) return 0;
+  if (!reads_second_layer(first.technique, first.params())) return 0;
   const float widened = first.frame.shape.extent / std::max(shape_of(work.light.source, work.params()).extent, 1e-6f);
   return work.params().get_float("maps.overlap") * static_cast<float>(work.frame.viewport.height) * widened;
 }

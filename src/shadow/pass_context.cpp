@@ -168,6 +168,9 @@ void PassContext::draw_casters(gl::Pass& pass, CasterKind kind, int layer) const
 void PassContext::draw_second_depth(gl::Pass& pass, int layer, float gap) const {
   CasterPass casters = caster_pass(CasterKind::second_depth, layer);
   casters.gap = gap / work_.frame.projection.depth_range(layer);
+  // Programs and matrices that are not the ones which drew the map may give other depths, by some steps of a float.
+  constexpr float rounding = 4 * 0x1p-24f;
+  if (light().maps || gap > 0) casters.gap = std::max(casters.gap, rounding);
   bring_nearer(casters.world_to_clip, casters.gap);
   bring_nearer(casters.anchored.to_clip, casters.gap);
   work_.inputs.draw(casters, pass);

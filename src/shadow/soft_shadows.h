@@ -71,8 +71,8 @@ struct FrameKind {
 //
 // Waiting. With the parameter cascades.fit=visible, render() waits once a light until the GPU has finished all earlier
 // work and has found what the depth texture shows; with cascades.fit=penumbrae twice where the technique decides tiles
-// (Technique::decides_tiles), and small maps are drawn in between. No other step of the library's own reads back what
-// the GPU computes.
+// (Technique::decides_tiles), and small maps are drawn in between, by which maps.overlap counts tiles. No other step of
+// the library's own reads back what the GPU computes.
 //
 // Threads. A device, and all that draws with it, is used on one thread at a time, with its context current there.
 // Devices of several contexts, of one driver or of several, can be used on several threads at the same time.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
@@ -104,7 +105,7 @@ TEST_F(ShadowLayers, WhereNoCastersOverlapThePictureIsThatOfOneLayer) {
 TEST_F(ShadowLayers, SmallMapsShowWhetherCastersOverlapInWidePenumbrae) {
   struct Drawn {
     std::vector<float> mask;
-    int second_layers = 0;
+    int size = 0;  // of the largest second layer, texels along a side
   };
   const auto draw = [&](bool both, int layers, float overlap) {
     ParamSet params = renderer_->params();
@@ -114,28 +115,29 @@ TEST_F(ShadowLayers, SmallMapsShowWhetherCastersOverlapInWidePenumbrae) {
     params.set("maps.layers", layers);
     params.set("maps.overlap", overlap);
     Drawn drawn;
-    drawn.mask =
-        renderer_
-            ->render(half_planes(both, 128), params,
-                     [&](shadow::Inputs& inputs) {
-                       inputs.view.cut = true;
-                       inputs.draw = [&drawn, draw = inputs.draw](const shadow::CasterPass& casters, gl::Pass& pass) {
-                         if (casters.kind == shadow::CasterKind::second_depth) ++drawn.second_layers;
-                         draw(casters, pass);
-                       };
-                     })
-            .mask;
+    const auto watch = [&](shadow::Inputs& inputs) {
+      inputs.view.cut = true;
+      inputs.binds_forward = false;
+      inputs.draw = [&drawn, draw = inputs.draw](const shadow::CasterPass& casters, gl::Pass& pass) {
+        std::array<GLint, 4> viewport{};
+        gl::glGetIntegerv(GL_VIEWPORT, viewport.data());
+        if (casters.kind == shadow::CasterKind::second_depth) drawn.size = std::max(drawn.size, viewport[2]);
+        draw(casters, pass);
+      };
+    };
+    drawn.mask = renderer_->render(half_planes(both, 128), params, watch).mask;
     return drawn;
   };
   const Drawn one = draw(true, 1, 0), two = draw(true, 2, 0);
   ASSERT_NE(one.mask, two.mask);
-  EXPECT_EQ(one.second_layers, 0);
-  EXPECT_GT(two.second_layers, 0);
+  EXPECT_EQ(one.size, 0);
+  EXPECT_GT(two.size, 0);
   const Drawn wide = draw(true, 2, 0.3f), too_wide = draw(true, 2, 0.9f);
   EXPECT_EQ(wide.mask, two.mask);
-  EXPECT_GT(wide.second_layers, two.second_layers) << "of the small maps, too";
+  EXPECT_EQ(wide.size, two.size);
   EXPECT_EQ(too_wide.mask, one.mask);
-  EXPECT_LT(too_wide.second_layers, wide.second_layers);
+  EXPECT_GT(too_wide.size, 0) << "of the small maps";
+  EXPECT_LT(too_wide.size, wide.size);
   EXPECT_EQ(draw(true, 2, 0.3f).mask, two.mask) << "after a frame without one";
   EXPECT_EQ(draw(false, 2, 0.01f).mask, draw(false, 1, 0).mask) << "nothing overlaps";
 }
@@ -147,14 +149,21 @@ TEST_F(ShadowLayers, OtherMapsHaveNoSecondLayerWhereItDependsOnOverlaps) {
     params.set("technique", std::string("slices"));
     params.set("sun.angle", angle);
     params.set("cascades.fit", std::string(fit));
-    const auto mask = [&](int layers) {
+    const auto mask = [&](int layers, bool binds_forward) {
       params.set("maps.layers", layers);
-      return renderer_->render(half_planes(true, 16), params, [](shadow::Inputs& in) { in.view.cut = true; }).mask;
+      return renderer_
+          ->render(half_planes(true, 16), params,
+                   [&](shadow::Inputs& inputs) {
+                     inputs.view.cut = true;
+                     inputs.binds_forward = binds_forward;
+                   })
+          .mask;
     };
-    const std::vector<float> one = mask(1);
-    EXPECT_NE(mask(2), one) << fit;
+    const std::vector<float> one = mask(1, false), two = mask(2, false);
+    EXPECT_NE(two, one) << fit;
     params.set("maps.overlap", 0.01f);
-    EXPECT_EQ(mask(2), one) << fit;
+    EXPECT_EQ(mask(2, false), one) << fit;
+    EXPECT_EQ(mask(2, true), two) << fit << ": programs of blended surfaces read it";
   }
 }
 

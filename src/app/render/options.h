@@ -22,8 +22,8 @@ struct RenderOptions : FrameOptions {
   bool is_sequence() const { return frames && !frame; }
 };
 
-// The values to render with. Where the user names no technique they are those of session::usual_technique, and maps of
-// a picture that is no frame of a sequence are fitted to what it shows, unless the user sets cascades.fit.
+// Where the user names no technique, that of session::usual_technique: maps of a picture that is no frame of a sequence
+// are then fitted to it, and have a second layer where casters overlap, unless cascades.fit or maps.layers are set.
 ParamSet params_of(const RenderOptions& options);
 
 void add_render_options(CLI::App& app, RenderOptions& options);

@@ -50,9 +50,10 @@ Recipe second_layer() {
                       "depth.",
                       host},
                      {"maps.overlap", 0.0f, 0, 1, "",
-                      "Above 0, a second layer is drawn only for pictures in which casters may overlap in penumbrae "
-                      "as wide as this share of the picture's height: with cascades.fit=penumbrae, whose small maps "
-                      "show it, and never for lamps.",
+                      "0: a second layer that maps.layers asks for is always drawn. Above 0: only for pictures in "
+                      "which casters may overlap in penumbrae as wide as this share of the picture's height, as the "
+                      "small maps of cascades.fit=penumbrae show; with another fit, and for lamps, there is one layer. "
+                      "Where blended surfaces read the maps, both are always drawn.",
                       host}},
           .depends_only_on_needs = true,
           .reads_light_discs = true,
