@@ -16,8 +16,8 @@ void set_lowest(inout Row row, vec2 first_ends, vec2 second_ends) {
   row.after = ends.y;
 }
 
-// The two rows that meet at a corner of texels. Texels outside of the map have the second surface of those at its border,
-// and so no edge is found there.
+// The two rows that meet at a corner of texels. Texels outside of the map have the second surface of those at its
+// border, and so no edge is found there.
 void read_rows(ivec2 corner, Light light, out Row row, out Row next) {
   vec4 first[5], second[5];
   for (int i = 0; i < 5; ++i) {

@@ -103,7 +103,8 @@ const Blocker no_blocker = Blocker(beyond_rim, 0.0, 0.0);
 // ends where it falls this many times more steeply than the light's cone.
 bool goes_on(Blocker before, float height, float at, Receiver receiver, Light light) {
   const float steepest = 4.0;
-  return !READS_SECOND_LAYER || abs(height - before.height) <= steepest * cone_slope(receiver, light) * (at - before.at);
+  float most = steepest * cone_slope(receiver, light) * (at - before.at);
+  return !READS_SECOND_LAYER || abs(height - before.height) <= most;
 }
 
 // Adds the rays that a texel of that depth hides to `rings`, if it is nearer to the light than `blocking`; `before`:
