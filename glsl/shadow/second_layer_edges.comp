@@ -23,7 +23,7 @@ void read_rows(ivec2 corner, Light light, out Row row, out Row next) {
   for (int i = 0; i < 5; ++i) {
     vec2 place = vec2(corner + ivec2(2 * i, 0));
     first[i] = gather_stored(place, light);
-    second[i] = textureGather(second_layer, vec3(place * light.map.texel_uv, float(light.layer)));
+    second[i] = gather_stored_in(second_layer, place, light);
   }
   row.first = vec4[2](vec4(first[0].z, first[1].wz, first[2].w), vec4(first[2].z, first[3].wz, first[4].w));
   row.second = vec4[2](vec4(second[0].z, second[1].wz, second[2].w), vec4(second[2].z, second[3].wz, second[4].w));

@@ -108,7 +108,8 @@ LightFrame draw_light(const MaskInputs& from, const ReadLight& read, ViewState& 
   frame.shape = shape_of(light.source, state.params);
   const NearPenumbrae near = find_near_penumbrae(work, shown.visible, wanted.recipes, view);
   shown.near_penumbrae = near.receivers;
-  take_layers(state, near.wide_overlap || state.params.get_float("maps.overlap") == 0 || frame.binds_forward);
+  const bool by_overlap = state.params.contains("maps.overlap") && state.params.get_float("maps.overlap") > 0;
+  take_layers(state, near.wide_overlap || !by_overlap || frame.binds_forward);
   frame.projection = projection_of(work, shown, wanted.recipes);
   if (frame.shape.lamp && technique.suns_only) {
     fail("soft shadows: light {} is a lamp, and technique '{}' is for suns alone", light.id, technique.name);

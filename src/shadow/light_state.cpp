@@ -75,12 +75,12 @@ bool take_params(LightState& state, const GivenParams& given, const Light& light
   ParamSet own = given.defaults;
   for (const Param& row : own.rows()) own.set(row.name, given.values.value(row.name));
   for (const std::string& assignment : light.overrides) own.assign(assignment);
-  if (!first) state.params.set("maps.layers", state.asked_layers);
+  if (!first) take_layers(state, /*second_layer=*/true);
   const bool same = same_values(given.registry, state.params, own);
   state.given = given.values;
   state.overrides = light.overrides;
   state.params = std::move(own);
-  state.asked_layers = state.params.get_int("maps.layers");
+  state.asked_layers = state.params.contains("maps.layers") ? state.params.get_int("maps.layers") : 1;
   state.programs.clear();
   state.samples.clear();
   if (!same) state.drawn_texels.reset();
@@ -91,7 +91,8 @@ bool take_params(LightState& state, const GivenParams& given, const Light& light
 
 void take_layers(LightState& state, bool second_layer) {
   const int layers = second_layer ? state.asked_layers : 1;
-  if (state.params.get_int("maps.layers") == layers) return;
+  // Registries without a second layer have no such parameter.
+  if (!state.params.contains("maps.layers") || state.params.get_int("maps.layers") == layers) return;
   state.params.set("maps.layers", layers);
   state.programs.clear();
   state.changed = true;

@@ -40,7 +40,8 @@ ParamSet params_of_first_maps(ParamSet params, int asked_layers, bool binds_forw
   const int side = params.get_int("cascades.size");
   params.set("cascades.size", std::max(side / side_divisor, std::min(side, least_side)));
   params.set("sun.angle", std::max(params.get_float("sun.angle"), least_angle));
-  params.set("maps.layers", params.get_float("maps.overlap") > 0 && !binds_forward ? asked_layers : 1);
+  if (params.contains("maps.layers"))
+    params.set("maps.layers", params.get_float("maps.overlap") > 0 && !binds_forward ? asked_layers : 1);
   return params;
 }
 

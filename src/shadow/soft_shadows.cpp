@@ -236,7 +236,7 @@ void SoftShadows::bind_forward(const Mask& mask, size_t light) {
   const LightFrame& frame = mask.lights.at(light);
   const LightState& state = state_->views.at(frame.view).lights.at(frame.light);
   const Technique& forward = forward_technique(registry_, state.params);
-  const bool lacks_layer = state.params.get_int("maps.layers") != state.asked_layers;
+  const bool lacks_layer = needs_second_layer(forward) && state.params.get_int("maps.layers") != state.asked_layers;
   if (!frame.binds_forward && (forward.name != state.params.get_word("technique") || lacks_layer))
     fail("soft shadows: light {} has no maps for surfaces drawn forward: its frame had Inputs::binds_forward off",
          frame.light);

@@ -159,10 +159,12 @@ struct Footprint {
   vec2 weight;  // bilinear, of the texels with the higher coordinate
 };
 
-// Stored depths of the four texels around map coordinates.
-vec4 gather_stored(vec2 place, Light light) {
-  return textureGather(shadow_depth, vec3(place * light.map.texel_uv, float(light.layer)));
+// Stored depths of the four texels of a map around map coordinates.
+vec4 gather_stored_in(sampler2DArray map, vec2 place, Light light) {
+  return textureGather(map, vec3(place * light.map.texel_uv, float(light.layer)));
 }
+
+vec4 gather_stored(vec2 place, Light light) { return gather_stored_in(shadow_depth, place, light); }
 
 // Depths, metres, of the texels `first` to first + (1, 1), in the order of a Footprint; outside of the map, its far
 // plane's.
