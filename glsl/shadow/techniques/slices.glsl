@@ -98,13 +98,13 @@ struct Blocker {
 
 const Blocker no_blocker = Blocker(beyond_rim, 0.0, 0.0);
 
-// Whether the material of a higher blocker is taken to go on down to the next one on the line. Where one layer is read,
-// it always is, since what lies below the higher one can't be seen. A second layer shows that, so with it a surface
-// ends where it falls this many times more steeply than the light's cone.
+// Whether the material of a higher blocker is taken to go on down to the next one on the line. If the map has one
+// layer, it always is, since what lies below the higher one can't be seen. With a second layer that is known, also
+// where nothing lies below: a surface ends where it falls this many times more steeply than the light's cone.
 bool goes_on(Blocker before, float height, float at, Receiver receiver, Light light) {
   const float steepest = 4.0;
   float most = steepest * cone_slope(receiver, light) * (at - before.at);
-  return !READS_SECOND_LAYER || abs(height - before.height) <= most;
+  return maps_layers == 1 || abs(height - before.height) <= most;
 }
 
 // Adds the rays that a texel of that depth hides to `rings`, if it is nearer to the light than `blocking`; `before`:
