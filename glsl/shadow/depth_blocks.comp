@@ -2,6 +2,8 @@
 // the row around them, and writes their 2 × 2 blocks.
 #include "shadow/depth_blocks.glsl"
 
+uniform bool border_is_edge;  // of the map: beyond it nothing is taken to lie
+
 // A row of eight texels, with the one before them and the one after them.
 struct Row {
   vec4 left, right;
@@ -35,8 +37,8 @@ void add_row(Row row, float height, inout Blocks two) {
   two.edges_right = min(min(two.edges_right, up_to_right), vec4(last));
 }
 
-// The two rows that meet at a corner of texels, from the texel before the corner on. Texels outside of the map are
-// empty (their depth is 1), or as those at its border, as the texture's sampler says.
+// The two rows that meet at a corner of texels, from the texel before the corner on. Texels outside of the map are as
+// those at its border.
 void read_rows(ivec2 corner, Light light, out Row row, out Row next) {
   vec4 cells[5];
   for (int i = 0; i < 5; ++i) cells[i] = gather_stored(vec2(corner + ivec2(2 * i, 0)), light);
@@ -48,10 +50,16 @@ void read_rows(ivec2 corner, Light light, out Row row, out Row next) {
   next.ends = vec2(cells[0].x, cells[4].y);
 }
 
+bool meets_border(ivec2 block) {
+  return any(equal(block, ivec2(0))) || any(greaterThan(4 * block + 4, last_texel()));
+}
+
 // Least depth of a block, and the least beside an edge. Blocks that no receiver reads count as empty: what the map
 // holds there depends on whether it was drawn whole.
 vec2 least_depths(ivec2 block, vec4 least, vec4 edges) {
-  return is_drawn(block) ? vec2(least_of(least), least_of(edges)) : vec2(1.0);
+  if (!is_drawn(block)) return vec2(1.0);
+  float depth = least_of(least), beside_edges = least_of(edges);
+  return vec2(depth, border_is_edge && meets_border(block) ? min(depth, beside_edges) : beside_edges);
 }
 
 void main() {

@@ -1,22 +1,19 @@
 // Finds what the view's depth texture shows of the receivers, for cascades that are fitted to it (Lauritzen, Salvi and
-// Lefohn 2011, Sample distribution shadow maps). The first run, with BOUNDS 0, finds the least and the greatest stored
-// depth. The second one divides the distances between them into slices, of equal ratios of far to near, and finds for
-// each slice how many pixels show it and its extents along several directions across the light. With UNDECIDED 1, what
-// is shown in decided tiles is left out.
+// Lefohn 2011, Sample distribution shadow maps), but for what is shown in decided tiles. The first run, with BOUNDS 0,
+// finds the least and the greatest stored depth. The second one divides the distances between them into slices, of
+// equal ratios of far to near, and finds for each slice how many pixels show it and its extents along several
+// directions across the light.
 #include "shared/language.h"
 #include "shadow/drivers/decisions.glsl"
 
 const uint slices = 32u;
-// Each invocation reads a block of pixels, and adds it to one slice: that of its farthest pixel. Cascades hold what the
-// slices before them hold too, so that near slices stay as small as what they show.
-const int block_size = tile_size;
+// Each invocation reads a tile, and adds it to one slice: that of its farthest pixel. Cascades hold what the slices
+// before them hold too, so that near slices stay as small as what they show.
 layout(local_size_x = 8, local_size_y = 8) in;
 const uint invocations = 64u;
 
 layout(binding = 2) uniform sampler2D receiver_depth;
-#if UNDECIDED
 layout(binding = 14) uniform usampler2D decisions;
-#endif
 
 // Of each slice: the extents along DIRECTIONS directions in light space's x and y, of which the first is the x axis and
 // each other one is turned by half a turn / DIRECTIONS more; then the depths along the light.
@@ -45,10 +42,9 @@ struct Pixels {
 };
 
 Pixels own_pixels() {
-  ivec2 at = block_size * ivec2(gl_GlobalInvocationID.xy), end = min(at + block_size, ivec2(viewport.zw));
-#if UNDECIDED
-  if (all(lessThan(at, end)) && is_decided(texelFetch(decisions, at / tile_size, 0))) end = at;
-#endif
+  ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 at = tile_size * tile, end = min(at + tile_size, ivec2(viewport.zw));
+  if (all(lessThan(at, end)) && is_decided(texelFetch(decisions, tile, 0))) end = at;
   return Pixels(ivec2(viewport.xy) + at, ivec2(viewport.xy) + end);
 }
 
@@ -72,7 +68,7 @@ vec3 view_position(vec2 at, float depth) {
 
 shared uint group_low[all_measures], group_high[all_measures], group_pixels[slices];
 
-// What a block of pixels shows: extents along four directions, half a right angle apart, and depths along the light.
+// What a tile shows: extents along four directions, half a right angle apart, and depths along the light.
 struct Part {
   uint pixels;
   float farthest;  // metres from where distances are counted
@@ -91,7 +87,7 @@ void add_range(uint index, float low, float high) {
   if (high_code > group_high[index]) atomicMax(group_high[index], high_code);
 }
 
-// The octagon about the part is measured instead of each pixel: it extends beyond them by a little of a block.
+// The octagon about the part is measured instead of each pixel: it extends beyond them by a little of a tile.
 void add(Part part, int slice) {
   const int steps = DIRECTIONS / 4;
   const float right_angle = 1.57079633;

@@ -7,8 +7,6 @@ namespace penumbra::shadow {
 
 namespace {
 
-constexpr gl::SamplerDesc empty_beyond{.wrap_s = GL_CLAMP_TO_BORDER, .wrap_t = GL_CLAMP_TO_BORDER};
-
 constexpr int invocation_side = 8;  // texels of the map along a side for each invocation: must match depth_blocks.glsl
 
 // The two finest levels, of what casters were drawn to; all else is empty. Layers are dispatched one by one, since a
@@ -17,16 +15,16 @@ void build_finest(const PassContext& context, gl::Pass& pass, const gl::Texture&
   constexpr glm::vec2 empty(1);
   for (int level = 0; level < 2; ++level) gl::glClearTexImage(pyramid.id(), level, GL_RG, GL_FLOAT, &empty);
   const gl::Program& program = context.use(pass, "base");
+  context.device().sampler({}).bind(unit_shadow_map);
   for (int level = 0; level < 2; ++level) pyramid.bind_image(static_cast<GLuint>(level), GL_WRITE_ONLY, level);
   const LightProjection& projection = context.frame().projection;
   for (int layer = 0; layer < projection.layers(); ++layer) {
+    const TexelRange drawn = projection.drawn_texels(layer);
+    program.set("layer", layer);
     // Receivers of a sun read a layer that holds their whole disc, so its border could never be an edge; but where only
     // a part of the map is drawn, that would leave pixels to other layers than where all is. They read the last layer
     // although it may not hold it.
-    const bool is_edge = context.frame().borders_are_edges || layer + 1 == projection.layers();
-    context.device().sampler(is_edge ? empty_beyond : gl::SamplerDesc{}).bind(unit_shadow_map);
-    const TexelRange drawn = projection.drawn_texels(layer);
-    program.set("layer", layer);
+    program.set("border_is_edge", context.frame().borders_are_edges || layer + 1 == projection.layers() ? 1 : 0);
     program.set("drawn", glm::ivec4(drawn.first, drawn.last));
     const glm::ivec2 size = drawn.last / invocation_side - drawn.first / invocation_side + 1;
     pass.dispatch(size.x, size.y, 1);

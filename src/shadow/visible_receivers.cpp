@@ -11,6 +11,7 @@
 #include <string>
 
 #include "light_frame.h"
+#include "tiles.h"
 
 namespace penumbra::shadow {
 
@@ -18,7 +19,6 @@ namespace {
 
 constexpr GLuint found_binding = 7;  // must match glsl/shadow/visible_receivers.comp
 constexpr int slices = 32;
-constexpr int block_size = 8;                      // pixels along each side that an invocation reads
 constexpr int measures = measured_directions + 1;  // the last one: depths
 static_assert(measured_directions > 0 && measured_directions % 4 == 0, "the shader measures along four and between");
 
@@ -40,12 +40,19 @@ float value_of(std::uint32_t code) {
   return std::bit_cast<float>((code & sign) != 0 ? code & ~sign : ~code);
 }
 
-gl::ProgramDesc program(bool bounds, bool undecided) {
-  return {.name = fmt::format("{} of {} receivers", bounds ? "bounds" : "depths", undecided ? "undecided" : "visible"),
+gl::ProgramDesc program(bool bounds) {
+  return {.name = bounds ? "bounds of visible receivers" : "depths of visible receivers",
           .compute = "shadow/visible_receivers.comp",
-          .defines = {{"BOUNDS", bounds ? "1" : "0"},
-                      {"UNDECIDED", undecided ? "1" : "0"},
-                      {"DIRECTIONS", std::to_string(measured_directions)}}};
+          .defines = {{"BOUNDS", bounds ? "1" : "0"}, {"DIRECTIONS", std::to_string(measured_directions)}}};
+}
+
+// Read where all tiles count: programs that read no decisions would be compiled besides, which takes longer than this.
+const gl::Texture& nothing_decided(gl::Device& device, const glm::ivec2& tiles) {
+  constexpr glm::uvec4 no_decision(0, 0, 0, ~0u);  // must match glsl/shadow/drivers/decisions.glsl
+  const gl::Texture& decisions =
+      device.target("nothing decided", {.format = GL_RGBA32UI, .width = tiles.x, .height = tiles.y});
+  gl::glClearTexImage(decisions.id(), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, &no_decision);
+  return decisions;
 }
 
 // From x and y in texels and the stored depth to view space, before the division by w.
@@ -82,6 +89,7 @@ std::optional<VisibleReceivers> find_visible_receivers(gl::Device& device, const
   if (light.maps || !fits_to_view(light.source) || !fits_to_view(params)) return {};
   const Rect viewport = viewport_of(inputs);
   const glm::dmat3 world_to_view(glm::dmat4(inputs.view.view));
+  const glm::ivec2 tiles = tile_count(viewport);
   const gl::Buffer& buffer = device.scratch(prefix + "visible receivers", sizeof(Found));
   Found found = nothing_found();
   gl::write_value(buffer, found);
@@ -89,13 +97,11 @@ std::optional<VisibleReceivers> find_visible_receivers(gl::Device& device, const
     gl::Pass pass(device, {.name = "visible receivers"});
     device.sampler({}).bind(unit_receiver_depth);
     gl::glBindTextureUnit(unit_receiver_depth, inputs.depth.id);
-    if (decisions != nullptr) {
-      device.sampler({}).bind(unit_decisions);
-      decisions->bind(unit_decisions);
-    }
+    device.sampler({}).bind(unit_decisions);
+    (decisions != nullptr ? *decisions : nothing_decided(device, tiles)).bind(unit_decisions);
     buffer.bind_storage(found_binding);
     for (const bool bounds : {false, true}) {
-      const gl::Program& reduce = pass.use(program(bounds, decisions != nullptr));
+      const gl::Program& reduce = pass.use(program(bounds));
       reduce.set("viewport", glm::vec4(viewport.x, viewport.y, viewport.width, viewport.height));
       reduce.set("sky_depth", inputs.conventions.reversed_z ? 0.0f : 1.0f);
       if (bounds) {
@@ -103,7 +109,7 @@ std::optional<VisibleReceivers> find_visible_receivers(gl::Device& device, const
         reduce.set("view_to_light", glm::mat4(light_axes(light.source) * glm::inverse(world_to_view)));
         reduce.set("distance_limit", params.get_float("cascades.distance"));
       }
-      pass.dispatch((viewport.width + block_size - 1) / block_size, (viewport.height + block_size - 1) / block_size);
+      pass.dispatch(tiles.x, tiles.y);
     }
   }
   gl::glGetNamedBufferSubData(buffer.id(), 0, sizeof(found), &found);
@@ -112,8 +118,6 @@ std::optional<VisibleReceivers> find_visible_receivers(gl::Device& device, const
   return visible;
 }
 
-std::vector<gl::ProgramDesc> visible_receivers_programs() {
-  return {program(false, false), program(true, false), program(false, true), program(true, true)};
-}
+std::vector<gl::ProgramDesc> visible_receivers_programs() { return {program(false), program(true)}; }
 
 }  // namespace penumbra::shadow
