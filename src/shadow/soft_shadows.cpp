@@ -218,9 +218,21 @@ void SoftShadows::warm_up(const FrameKind& kind, const ParamSet& params) {
     const std::vector<Light> lights = warm_up_lights(device_, view.prefix, kind);
     FrameKind small = kind;
     small.lights = lights;
-    // The second has a history, and casters that may have moved.
-    for (int i = 0; i < 2; ++i) draw(warm_up_inputs(device_, view.prefix, small), params, view);
-    draw(other_warm_up_inputs(device_, view.prefix, small), params, view);
+    // Frames with maps.overlap need some programs with a second layer and some without, and these fewer of them where
+    // no surface is drawn forward.
+    const bool asks_for_overlap = std::ranges::any_of(lights, [&](const Light& light) {
+      const ParamSet& own = state_->params_of(registry_, params, light);
+      return own.contains("maps.overlap") && own.get_float("maps.overlap") > 0 && own.get_int("maps.layers") > 1;
+    });
+    for (const bool binds_forward : asks_for_overlap ? std::vector{true, false} : std::vector{true}) {
+      const auto warm = [&](Inputs inputs) {
+        inputs.binds_forward = binds_forward;
+        draw(inputs, params, view);
+      };
+      // The second has a history, and casters that may have moved.
+      for (int i = 0; i < 2; ++i) warm(warm_up_inputs(device_, view.prefix, small));
+      warm(other_warm_up_inputs(device_, view.prefix, small));
+    }
     make_tables(view);
   });
 }

@@ -58,10 +58,10 @@ struct FrameKind {
 // including the caller's.
 //
 // Memory. No texture is created after the first frame of a size, unless cascades.fit=visible or penumbrae chooses
-// another number of cascades for what a frame shows (which cascades.count of 1 prevents), and no OpenGL object at
-// all after the first frame in which a caster moved (where a history is kept). Shadow maps, masks and histories are
-// kept for each view id until forget_view(); those of a light are released in the first frame of the view that does not
-// list it.
+// another number of cascades for what a frame shows (which cascades.count of 1 prevents), or maps.overlap a second
+// layer, and no OpenGL object at all after the first frame in which a caster moved (where a history is kept). Shadow
+// maps, masks and histories are kept for each view id until forget_view(); those of a light are released in the first
+// frame of the view that does not list it.
 //
 // Shadow maps. Layers in which nothing has changed since the view's last frame are not drawn again, and neither are the
 // products of recipes that depend on the map alone: see Inputs::moved, which must be right for that, and the parameter
@@ -98,8 +98,8 @@ class SoftShadows {
   // the caller need not draw motion vectors.
   bool reads_motion(const ParamSet& params, std::span<const Light> lights) const;
   // Compiles the programs and makes the tables that frames of that kind need with these parameters, so that none of
-  // them has to. Draws three frames of 60 × 60 pixels with one caster of its own and maps of the parameters' size,
-  // which are released afterwards. Leaves OpenGL and throws as render() does.
+  // them has to. Draws three frames of 60 × 60 pixels, with maps.overlap six, with one caster of its own and maps of
+  // the parameters' size, which are released afterwards. Leaves OpenGL and throws as render() does.
   void warm_up(const FrameKind& kind, const ParamSet& params);
   // Releases everything that is kept for a view.
   void forget_view(int id);

@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gpu/triangle_scene.h"
@@ -140,6 +142,45 @@ TEST_F(ShadowLayers, SmallMapsShowWhetherCastersOverlapInWidePenumbrae) {
   EXPECT_LT(too_wide.size, wide.size);
   EXPECT_EQ(draw(true, 2, 0.3f).mask, two.mask) << "after a frame without one";
   EXPECT_EQ(draw(false, 2, 0.01f).mask, draw(false, 1, 0).mask) << "nothing overlaps";
+}
+
+// The names of all programs but those of the scene itself.
+std::multiset<std::string> compiled_programs() {
+  std::multiset<std::string> names;
+  constexpr GLuint most = 1000;
+  for (GLuint id = 1; id < most; ++id) {
+    if (gl::glIsProgram(id) == GL_FALSE) continue;
+    std::array<char, 100> name{};
+    gl::glGetObjectLabel(GL_PROGRAM, id, static_cast<GLsizei>(name.size()), nullptr, name.data());
+    if (!std::string_view(name.data()).starts_with("test ")) names.emplace(name.data());
+  }
+  return names;
+}
+
+TEST_F(ShadowLayers, AfterAWarmUpNoFrameCompilesAProgramWhetherCastersOverlapOrNot) {
+  TriangleRenderer renderer;
+  ParamSet params = renderer.params();
+  params.set("technique", std::string("slices"));
+  params.set("sun.angle", angle);
+  params.set("cascades.fit", std::string("penumbrae"));
+  params.set("maps.layers", 2);
+  params.set("maps.overlap", 0.3f);
+  const TriangleScene scene = half_planes(true, 128);
+  const shadow::Light light{.source = shadow::Sun{scene.to_light}, .overrides = {}, .maps = {}};
+  renderer.shadows().warm_up({.lights = {&light, 1}, .mask_details = true}, params);
+  const auto frames = [&](bool binds_forward) {
+    for (const bool both : {false, true}) {
+      renderer.render(half_planes(both, 128), params, [&](shadow::Inputs& inputs) {
+        inputs.view.cut = true;
+        inputs.binds_forward = binds_forward;
+      });
+    }
+  };
+  const std::multiset<std::string> warm = compiled_programs();
+  frames(/*binds_forward=*/false);
+  EXPECT_EQ(compiled_programs(), warm);
+  frames(/*binds_forward=*/true);
+  EXPECT_EQ(compiled_programs(), warm);
 }
 
 // Whether casters overlap is known of pictures with small maps alone.
