@@ -58,8 +58,9 @@ void draw_maps(const LightWork& work) {
   const Inputs& inputs = work.inputs;
   LightFrame& frame = work.frame;
   const bool finished = work.light.maps.has_value();
+  const bool hidden_count = sees_hidden_casters(work.technique, work.params());
   const bool in_one_pass =
-      frame.casters_moved && !finished && work.params().get_word("movement.present") == "shadow_pass";
+      frame.casters_moved && !finished && !hidden_count && work.params().get_word("movement.present") == "shadow_pass";
   const gl::Texture* depth = nullptr;
   if (!finished) {
     depth = &shadow_map_target(work.device, work.prefix() + shadow_map_name, frame.projection);
@@ -85,7 +86,7 @@ void draw_maps(const LightWork& work) {
                               .projection = frame.projection,
                               .source = work.light.source,
                               .draw = inputs.draw,
-                              .depth = depth,
+                              .depth = hidden_count ? nullptr : depth,
                               .moved = inputs.moved,
                               .present_is_drawn = in_one_pass});
 }

@@ -31,6 +31,10 @@ bool reads_second_layer(const Technique& technique, const ParamSet& params) {
   return needs_second_layer(technique) && params.get_int("maps.layers") == 2;
 }
 
+bool sees_hidden_casters(const Technique& technique, const ParamSet& params) {
+  return technique.sees_hidden_casters || reads_second_layer(technique, params);
+}
+
 const Product* find_product(const LightFrame& frame, std::string_view name) {
   const auto found = std::ranges::find(frame.products, name, &Product::name);
   return found == frame.products.end() ? nullptr : &*found;

@@ -41,6 +41,8 @@ std::vector<Denoiser::Remembered> remembered_by(const Denoiser* denoiser, const 
 // Whether a technique reads the second layer of the map (product second_layer): ever, and with these parameters.
 bool needs_second_layer(const Technique& technique);
 bool reads_second_layer(const Technique& technique, const ParamSet& params);
+// Whether it finds the shadows of casters that the first layer does not show.
+bool sees_hidden_casters(const Technique& technique, const ParamSet& params);
 
 // Null if this frame made no product of that name.
 const Product* find_product(const LightFrame& frame, std::string_view name);

@@ -17,10 +17,10 @@ enum class MovementForm {
   maximum,  // GL_R8: 1 where something moved in any covered texel, else 0; nothing is lost
 };
 
-// The texture of the movement map: marks the texels in which a caster that moved since the last frame is, or was,
-// nearest to the light. It has the layers of the projection and all mip levels. Texel (x, y) of level l covers the 2^l
-// × 2^l texels from (x, y)·2^l on; the last row and column of a level also cover the remainder when the map's size is
-// not a power of two.
+// The texture of the movement map: marks the texels in which a caster that moved since the last frame is, or was: the
+// one nearest to the light, or any (MovementInputs::depth). It has the layers of the projection and all mip levels.
+// Texel (x, y) of level l covers the 2^l × 2^l texels from (x, y)·2^l on; the last row and column of a level also cover
+// the remainder when the map's size is not a power of two.
 const gl::Texture& movement_target(gl::Device& device, std::string_view name, int size, int layers, MovementForm form);
 
 struct MovementInputs {
@@ -30,8 +30,8 @@ struct MovementInputs {
   LightSource source = {};
   const DrawCasters& draw;
   // The finished shadow map, used as depth test so that moved casters count only where nothing nearer to the light
-  // hides them. Null if the caller drew the map: then hidden casters count too, which rejects more history than
-  // necessary.
+  // hides them. Null: hidden casters count too. So it is where these cast shadows (sees_hidden_casters()), and where
+  // the caller drew the map, which rejects more history than necessary.
   const gl::Texture* depth = nullptr;
   std::optional<Box> moved;  // Inputs::moved
   bool present_is_drawn =

@@ -73,6 +73,9 @@ struct Technique {
   // glsl/lib/kernel.glsl), as bounds_near() does. Casters are then drawn only there, if the same holds for all else
   // that reads the maps; otherwise in the whole maps.
   bool reads_light_discs = false;
+  // Whether casters that the first layer of the map does not show cast shadows for it although it does not read the
+  // second one, as for rays: where they move, no history is kept.
+  bool sees_hidden_casters = false;
 };
 
 }  // namespace penumbra::shadow

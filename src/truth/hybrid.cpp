@@ -221,7 +221,8 @@ shadow::Technique hybrid(int threads) {
           },
       .suns_only = true,
       .stand_in = "pcss",
-      .reads_light_discs = true};
+      .reads_light_discs = true,
+      .sees_hidden_casters = true};
 }
 
 shadow::Preset hybrid_denoised() {
