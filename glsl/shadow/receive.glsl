@@ -22,7 +22,7 @@ Light light_for_layer(Receiver seen, Light light, int layer) {
 }
 
 Shadowed shadow_of(Receiver receiver, Light light) {
-  if (!faces_light(receiver)) return Shadowed(Visibility(0.0, 0.0, 0.0, false, false), 0, false);
+  if (!faces_light(receiver)) return Shadowed(Visibility(0.0, 0.0, 0.0, false, false), 0, SCALED != 0);
 #if CHOOSES_LAYER
   LayerChoice choice = choose_layer(receiver, light.read_radius, light);
   if (choice.outside) return Shadowed(fully_lit(), choice.layer, false);

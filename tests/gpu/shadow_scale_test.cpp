@@ -297,6 +297,27 @@ TEST_F(ShadowScale, MostOfAWidePenumbraIsInterpolated) {
   EXPECT_LT(rms(full, scaled), 0.02);
 }
 
+// The picture shows a side of a box that faces away from the sun, and its top.
+TEST_F(ShadowScale, PixelsBesideASurfaceThatFacesAwayKeepTheirLight) {
+  TriangleScene scene;
+  scene.add_box({-1, 0, -1}, {1, 1, 1});
+  scene.to_light = sun_direction(0, 60);
+  const glm::vec3 away = glm::normalize(glm::vec3(scene.to_light.x, 0, scene.to_light.z));
+  scene.view = glm::lookAt(-6.0f * away + glm::vec3(0.4f, 3, 0.3f), glm::vec3(0, 0.7f, 0), glm::vec3(0, 1, 0));
+  scene.projection = perspective(0.5f, 1.5f, 0.1f);
+  scene.width = 241;
+  scene.height = 161;
+  scene.receivers = scene.casters = shadow::Box{{-1, 0, -1}, {1, 1, 1}};
+  params.set("sun.angle", 0.5f);
+  const std::vector<float> full = render(scene, 1).visibilities();
+  for (const int scale : {2, 3, 4}) {
+    const std::vector<float> scaled = render(scene, scale).visibilities();
+    int lost = 0;
+    for (std::size_t i = 0; i < full.size(); ++i) lost += full[i] == 1 && scaled[i] < 0.5f ? 1 : 0;
+    EXPECT_EQ(lost, 0) << scale;
+  }
+}
+
 TEST_F(ShadowScale, AnEdgeStaysSharp) {
   params.set("technique", std::string("hard"));
   const TriangleScene scene = box_on_ground(160, 120);
