@@ -12,8 +12,16 @@ results=${RESULTS:-out/pictures} limit=${LIMIT:-0.005}
 record=0 failed=0
 [[ ${1:-} == --record ]] && record=1 && shift
 
-for scene in "$scenes"/*.gl*; do
+shopt -s nullglob
+files=("$scenes"/*.{glb,gltf})
+((${#files[@]})) || { printf 'no scene in %s\n' "$scenes" >&2 && exit 1; }
+for scene in "${files[@]}"; do
   name=$(basename "${scene%.*}")
+  if [[ $scene == *.gltf && -e $scenes/$name.glb ]]; then
+    printf '%s and %s would have the same picture\n' "$scene" "$scenes/$name.glb" >&2
+    failed=1
+    continue
+  fi
   picture=$results/$name.png
   # Frames in software are the same on every machine with the same version of Mesa; a GPU has its own rounding.
   if ! "$penumbra" render "$scene" -o "$picture" --size 320x180 --backend osmesa --quiet "$@"; then
@@ -28,7 +36,7 @@ for scene in "$scenes"/*.gl*; do
 done
 for picture in "$recorded"/*.png; do
   name=$(basename "${picture%.png}")
-  if ((!record)) && [[ -e $picture ]] && ! compgen -G "$scenes/$name.gl*" >/dev/null; then
+  if ((!record)) && [[ ! -e $scenes/$name.glb && ! -e $scenes/$name.gltf ]]; then
     printf 'without a scene: %s\n' "$picture" >&2
     failed=1
   fi

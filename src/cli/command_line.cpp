@@ -27,7 +27,7 @@ namespace penumbra::cli {
 
 namespace {
 
-// Log levels by name. "quiet" is above the level of every message, so none is printed.
+// Log levels by name. "quiet" is above the level of every message; the error that ends a command is none of them.
 const std::map<std::string, int>& log_levels() {
   static const std::map<std::string, int> levels{{"debug", static_cast<int>(LogLevel::debug)},
                                                  {"info", static_cast<int>(LogLevel::info)},
@@ -191,7 +191,9 @@ void read_help_with(std::function<void(const CLI::App&)> reader) { help_reader()
 
 bool parse(CLI::App& options, const Arguments& arguments) {
   std::string level = "warning";
-  options.add_option("--log-level", level, "Least severe message to show; quiet: none (warning)")
+  options
+      .add_option("--log-level", level,
+                  "Least severe message to show; quiet: only the error that ends the command (warning)")
       ->type_name("debug|info|warning|error|quiet");
   options.allow_extras();
   group_options(options);

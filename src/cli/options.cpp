@@ -13,6 +13,7 @@
 #include "io/output_file.h"
 #include "io/presets.h"
 #include "render/renderer.h"
+#include "shadow/selection.h"
 
 namespace penumbra::cli {
 
@@ -264,10 +265,6 @@ void refuse_technique(std::span<const std::string> assignments, std::string_view
   }
 }
 
-bool names_technique(const ShadowOptions& options) {
-  return !options.technique.empty() || !options.presets.empty() || is_assigned(options, "technique");
-}
-
 bool is_chosen(const ShadowOptions& options, const ParamSet& params, std::string_view name) {
   return !params.is_default(name) || is_assigned(options, name);
 }
@@ -306,6 +303,18 @@ std::string apply_preset(const std::string& preset, ParamSet& params, const shad
   return named;
 }
 
+// Whether a preset names a technique. What can be read only once, such as a pipe, is taken to do so.
+bool names_technique(const std::string& preset, const shadow::Registry& registry) {
+  std::error_code unread;
+  if (!std::filesystem::is_regular_file(preset, unread)) return true;
+  try {
+    ParamSet params(render::Renderer::params(registry));
+    return !apply_preset(preset, params, registry).empty();
+  } catch (const Error&) {
+    return true;  // the message follows when its values are needed
+  }
+}
+
 void select_technique(const std::string& technique, ParamSet& params, const shadow::Registry& registry) {
   try {
     registry.select(params, technique);
@@ -314,17 +323,32 @@ void select_technique(const std::string& technique, ParamSet& params, const shad
   }
 }
 
+}  // namespace
+
+bool names_technique(const ShadowOptions& options, const shadow::Registry& registry) {
+  return !options.technique.empty() || is_assigned(options, "technique") ||
+         std::ranges::any_of(options.presets,
+                             [&](const std::string& preset) { return names_technique(preset, registry); });
+}
+
+namespace {
+
 // The presets and --technique in the order in which they are given.
 ParamSet in_order(const ShadowOptions& options, const shadow::Registry& registry) {
   ParamSet params(render::Renderer::params(registry));
+  if (!options.otherwise.empty() && !names_technique(options, registry))
+    select_technique(options.otherwise, params, registry);
   const std::size_t before = std::min(options.presets_before_technique.value_or(SIZE_MAX), options.presets.size());
   std::string named;  // by the presets before --technique
   for (std::size_t i = 0; i < before; ++i) {
     const std::string name = apply_preset(options.presets[i], params, registry);
     if (!name.empty()) named = name;
   }
-  const std::string& technique = names_technique(options) ? options.technique : options.otherwise;
-  if (!technique.empty()) select_technique(technique, params, registry);
+  const std::string& technique = options.technique;
+  if (!technique.empty()) {
+    if (named != technique) shadow::take_back(params, registry, named);
+    select_technique(technique, params, registry);
+  }
   if (options.presets_before_technique && !named.empty() && named != technique)
     warn_once(fmt::format("--technique {0} comes after a preset that chooses {1}: {0} is drawn", technique, named));
   for (std::size_t i = before; i < options.presets.size(); ++i) {

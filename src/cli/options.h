@@ -90,8 +90,8 @@ ParamSet resolve_params(const ShadowOptions& options, const shadow::Registry& re
 // For commands that name the technique in another way: a UsageError if --set names one. `instead`: "see --technique".
 void refuse_technique(std::span<const std::string> assignments, std::string_view instead);
 
-// Whether the user names a technique: by --technique, a preset file or --set technique=NAME.
-bool names_technique(const ShadowOptions& options);
+// Whether the user names a technique: by --technique, a preset that does, or --set technique=NAME.
+bool names_technique(const ShadowOptions& options, const shadow::Registry& registry);
 
 // Whether the user set a parameter: by --set, or to another value than its default. `params` are the resolved ones.
 bool is_chosen(const ShadowOptions& options, const ParamSet& params, std::string_view name);

@@ -51,7 +51,9 @@ OutputNames::OutputNames(const std::string& output, bool sequence) {
 
   const std::vector<Place> places = places_in(stem);
   if (!sequence) {
-    if (!places.empty()) fail_usage("-o '{}' has a place for a frame's number, which needs --frames", output);
+    // A single # may belong to the name.
+    if (std::ranges::any_of(places, [&](const Place& at) { return stem[at.begin] == '%' || at.digits > 1; }))
+      fail_usage("-o '{}' has a place for a frame's number, which needs --frames", output);
     return;
   }
   if (places.empty() && stem.find('%') == std::string::npos) {

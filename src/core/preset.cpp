@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -73,8 +74,7 @@ std::optional<ParamValue> scalar(const toml::node& node, std::string_view& kind)
   const auto whole = node.value_exact<std::int64_t>();
   if (!whole) return kind = "a list or a date", std::nullopt;
   kind = "a whole number";
-  constexpr std::int64_t least = std::numeric_limits<int>::min(), most = std::numeric_limits<int>::max();
-  return ParamValue(static_cast<int>(std::clamp(*whole, least, most)));
+  return ParamValue(static_cast<int>(*whole));
 }
 
 // Only the type is checked here; ParamSet::set() checks the range.
@@ -93,7 +93,12 @@ void apply(const Entry& entry, ParamSet& params, const SelectTechnique& select) 
     const bool known = params.contains(entry.name) || params.renamed_from(entry.name) != nullptr;
     if (!known && near_names(entry.name, params.names()).empty())
       fail("unknown parameter '{}'; see penumbra list params", entry.name);
-    params.set(entry.name, value_of(params.row(entry.name), *entry.node));
+    const auto whole = entry.node->value_exact<std::int64_t>();
+    if (whole && !std::in_range<int>(*whole)) {
+      params.set_text(entry.name, std::to_string(*whole));
+    } else {
+      params.set(entry.name, value_of(params.row(entry.name), *entry.node));
+    }
     return;
   }
   const auto name = entry.node->value_exact<std::string>();

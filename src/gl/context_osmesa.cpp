@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <string_view>
 
 #include "context_base.h"
 #include "shared_library.h"
@@ -30,6 +32,15 @@ const OsMesa& osmesa() {
   return functions;
 }
 
+// OSMesa crashes where this names a driver that it does not have.
+void check_driver() {
+  const char* driver = std::getenv("GALLIUM_DRIVER");
+  if (driver == nullptr || *driver == '\0') return;
+  const std::string_view name = driver;
+  if (name != "llvmpipe" && name != "softpipe")
+    fail("OSMesa: the environment variable GALLIUM_DRIVER is '{}'; it must be llvmpipe, softpipe or unset", name);
+}
+
 void* osmesa_proc_address(const char* name) { return reinterpret_cast<void*>(osmesa().get_proc_address(name)); }
 
 class OsMesaContext final : public ContextBase {
@@ -44,6 +55,7 @@ class OsMesaContext final : public ContextBase {
                                 OSMESA_CONTEXT_MINOR_VERSION,
                                 5,
                                 0};
+    check_driver();
     context_ = osmesa().create_context_attribs(attributes.data(), nullptr);
     if (context_ == nullptr) fail("OSMesa: no OpenGL 4.5 context");
   }

@@ -24,6 +24,9 @@ std::vector<fs::path>& more_folders() {
 std::string module_path() {
   std::error_code fault;
   const fs::path folder = fs::read_symlink("/proc/self/exe", fault).parent_path();
+  if (fault)
+    fail("JPEG and EXR need {}, which lies beside the program; its place can't be read from /proc/self/exe: {}",
+         module_file, fault.message());
   std::vector<fs::path> places{folder, folder / "..", folder / PENUMBRA_MODULE_FOLDER};
   places.insert(places.end(), more_folders().begin(), more_folders().end());
   for (const fs::path& place : places) {

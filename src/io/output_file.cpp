@@ -284,7 +284,9 @@ fs::path place_of(const fs::path& path) {
   std::string ignored;
   const fs::path target = linked_from(path, ignored);
   std::error_code error;
-  const fs::path real = fs::weakly_canonical(fs::absolute(folder_of(target)), error);
+  const fs::path folder = fs::absolute(folder_of(target), error);
+  if (error) fail("cannot write {}: the working folder can't be read: {}", quoted(path), error.message());
+  const fs::path real = fs::weakly_canonical(folder, error);
   return (error ? folder_of(target).lexically_normal() : real) / target.filename();
 }
 

@@ -20,6 +20,12 @@ class Doctor(TestCase):
             self.assertIsInstance(device["software"], bool)
             self.assertGreater(device["limits"]["texture size"], 1023)
 
+    def test_a_driver_that_osmesa_lacks_is_told(self):
+        for name in ("zink", "d3d12", "llvmpip"):
+            error = self.refuse("render", scene("steps"), "-o", self.folder / "x.png", "--size", "16x9", "--backend",
+                                "osmesa", env={**os.environ, "GALLIUM_DRIVER": name})
+            self.assertIn(f"GALLIUM_DRIVER is '{name}'", error)
+
     def test_text_names_each_backend_and_the_limits(self):
         text = self.succeed("doctor").stdout
         for word in ("egl", "osmesa", "window", "vendor", "renderer", "version", "limits", "software"):

@@ -91,6 +91,7 @@ class Params(TestCase):
             ("sun.angle = true\n", ["p.toml:1:", "float", "bool"]),
             ("sun.angle = \n", ["p.toml:1:"]),
             ("sun.angle = 1\nsun.angle = 2\n", ["p.toml:2:"]),
+            ("pcss.filter_taps = 9223372036854775807\n", ["p.toml:1:", "'9223372036854775807'"]),
         ):
             with self.subTest(text):
                 error = self.refuse("render", POSTS, "-o", self.folder / "x.png", "--preset", self.preset(text))
@@ -184,7 +185,7 @@ class Params(TestCase):
     def test_the_later_of_a_preset_and_a_technique_counts(self):
         path = self.preset('technique = "thesis_8x8"\nsun.angle = 1.5\n')
         for arguments, technique, taps, visibility in (
-            (["--preset", path, "--technique", "hard"], "hard", 8, "bilateral_separable"),
+            (["--preset", path, "--technique", "hard"], "hard", 16, "none"),
             (["--technique", "hard", "--preset", path], "pcss", 8, "bilateral_separable"),
             (["--technique", "slices_denoised", "--preset", path], "pcss", 8, "bilateral_separable"),
         ):
@@ -199,6 +200,17 @@ class Params(TestCase):
         for arguments in (["--preset", plain, "--technique", "pcf"], ["--technique", "pcf", "--preset", plain],
                           ["--preset", path, "--technique", "thesis_8x8"]):
             self.assertEqual(self.warnings(*arguments), [])
+
+    def test_of_a_preset_that_does_not_count_nothing_stays(self):
+        alone = self.stats_after("--technique", "pcss")
+        for preset in ("thesis", "slices_denoised"):
+            self.assertEqual(self.stats_after("--preset", preset, "--technique", "pcss"), alone, preset)
+
+    def test_a_preset_without_a_technique_changes_what_is_usually_drawn(self):
+        plain = self.preset("sun.angle = 1.5\n")
+        self.assertEqual(self.stats_after("--preset", plain), self.stats_after("--sun-angle", "1.5"))
+        own = self.preset('slices.azimuths = 3\n')
+        self.assertEqual(self.stats_after("--preset", own)["slices.azimuths"], 3)
 
     def test_presets_have_names(self):
         by_name = self.stats_after("--preset", "thesis_8x8", "--set", "filter.taps=4")

@@ -103,6 +103,12 @@ class Truth(TestCase):
                               self.folder / "file")
         self.assertIn("warning: the cache", result.stderr)
 
+    def test_an_error_bound_that_is_too_low_is_told(self):
+        arguments = ("truth", scene("steps"), "-o", self.folder / "x.exr", "--size", "32x18", "--sun-angle", "5",
+                     "--spp", "65536", "--no-cache", "--error")
+        self.assertIn("truth.error 1e-05 is not reached", self.succeed(*arguments, "0.00001").stderr)
+        self.assertEqual(self.succeed(*arguments, "0.01").stderr, "")
+
     def test_an_error_bound_is_met(self):
         view = ("--sun-angle", "4", "--eye", "0,3,6", "--target", "0,0,0", *SMALL)
         self.trace("x.exr", "--spp", "64", "--error", "0.004", *view, size=())

@@ -58,6 +58,7 @@ TEST(Usage, DirectionsAreInDegrees) {
 
 TEST(OutputNames, OnePictureKeepsItsName) {
   EXPECT_EQ(OutputNames("a#b/100%.png", false).picture(7), "a#b/100%.png");
+  EXPECT_EQ(OutputNames("room#1.png", false).picture(7), "room#1.png");
   EXPECT_EQ(OutputNames("x.PNG", false).picture(0), "x.PNG");
   EXPECT_EQ(OutputNames("out/x.png", false).aov(0, "shadow"), "out/x.shadow.png");
   EXPECT_TRUE(OutputNames("x.exr", false).is_exr());
@@ -79,7 +80,7 @@ TEST(OutputNames, RefuseOtherKindsAndBadPatterns) {
     EXPECT_THROW(OutputNames(name, false), UsageError) << name;
   for (const char* name : {"x%s.png", "x%.png", "x%d%d.png", "x%12d.png", "x%n.png", "x#_#.png", "x#%d.png", "x#%.png"})
     EXPECT_THROW(OutputNames(name, true), UsageError) << name;
-  for (const char* name : {"x#.png", "x####.exr", "x%d.png", "x%04d.png"})
+  for (const char* name : {"x##.png", "x####.exr", "x%d.png", "x%04d.png"})
     EXPECT_THROW(OutputNames(name, false), UsageError) << name;
 }
 

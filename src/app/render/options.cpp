@@ -108,7 +108,7 @@ void add_render_options(CLI::App& app, RenderOptions& options) {
 ParamSet params_of(const RenderOptions& options) {
   auto shadows = static_cast<const cli::ShadowOptions&>(options);
   shadows.otherwise = session::usual_technique;
-  if (!options.frames && !cli::names_technique(options)) {
+  if (!options.frames && !cli::names_technique(options, session::all_techniques())) {
     // In the first place, so that the user's own values count. Who asks for two layers gets them.
     const bool names_layers = std::ranges::any_of(
         options.assignments, [](const std::string& assignment) { return assignment.starts_with("maps.layers="); });

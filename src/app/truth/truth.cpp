@@ -14,6 +14,7 @@
 #include "cli/progress.h"
 #include "cli/signals.h"
 #include "cli/text.h"
+#include "core/log.h"
 #include "image/read.h"
 #include "io/output_file.h"
 #include "session/prepared_scene.h"
@@ -111,15 +112,21 @@ void trace_files(TruthOptions options) {
   session::RenderSession session(options, options, session::open_context(options, options), prepared, truth.registry(),
                                  /* timed= */ false);
   std::string last_line;
+  float worst = 0;
   for (int frame = range.first; frame <= range.last; ++frame) {
     session.draw(frame, params);
     for (const cli::EncodedFile& file : encoded_pictures(names, frame, options.size, truth, lights,
                                                          metadata_of(options, session.setup(), params, frame)))
       io::write_text(file.path, {reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()});
     if (range.count() > 1) progress->step();
+    worst = std::max(worst, error_of_most(truth, lights));
     last_line = summary(names.picture(frame), options.size, truth, lights);
   }
   progress.reset();
+  const float asked = params.get_float("truth.error");
+  if (asked > 0 && worst > asked)
+    warn("truth.error {} is not reached: the standard error is up to {:.2g} with {} rays a pixel, the most", asked,
+         worst, truth::max_samples);
   if (!options.quiet) fmt::print("{}\n", cli::printable(last_line));
 }
 

@@ -65,7 +65,11 @@ Found find_file(const std::filesystem::path& folder, std::string_view uri, bool 
   Found missing{.name = percent_decoded(uri), .file = {}};
   for (const std::string& name : {missing.name, std::string(uri)}) {
     code.clear();
-    if (name.find('\0') != std::string::npos) fail("'{}' holds a zero byte", shortened(uri));
+    if (name.find('\0') != std::string::npos) {
+      std::string shown(shortened(uri));
+      std::ranges::replace(shown, '\0', ' ');  // an error's text would end there
+      fail("'{}' holds a zero byte", shown);
+    }
     if (std::filesystem::path(name).is_absolute()) fail("'{}' is an absolute path", shortened(uri));
     const auto named = (base / name).lexically_normal();
     if (!lies_inside(named, base)) fail("'{}' leads out of the scene's folder", shortened(uri));
