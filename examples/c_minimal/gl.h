@@ -49,7 +49,7 @@
   X(PFNGLPOINTSIZEPROC, glPointSize)                             \
   X(PFNGLPOLYGONMODEPROC, glPolygonMode)                         \
   X(PFNGLPOLYGONOFFSETPROC, glPolygonOffset)                     \
-  X(PFNGLSCISSORPROC, glScissor)                                 \
+  X(PFNGLSCISSORINDEXEDPROC, glScissorIndexed)                   \
   X(PFNGLSHADERSOURCEPROC, glShaderSource)                       \
   X(PFNGLSTENCILFUNCSEPARATEPROC, glStencilFuncSeparate)         \
   X(PFNGLSTENCILMASKSEPARATEPROC, glStencilMaskSeparate)         \

@@ -1,6 +1,6 @@
 #include "state_guard.h"
 
-enum { capability_count = 12, uniform_count = 3, storage_binding = 7 };
+enum { capability_count = 14, uniform_count = 3, storage_binding = 7 };
 
 static const GLenum capabilities[capability_count] = {GL_DEPTH_TEST,
                                                       GL_STENCIL_TEST,
@@ -10,6 +10,8 @@ static const GLenum capabilities[capability_count] = {GL_DEPTH_TEST,
                                                       GL_DEPTH_CLAMP,
                                                       GL_FRAMEBUFFER_SRGB,
                                                       GL_POLYGON_OFFSET_FILL,
+                                                      GL_POLYGON_OFFSET_LINE,
+                                                      GL_POLYGON_OFFSET_POINT,
                                                       GL_DITHER,
                                                       GL_PRIMITIVE_RESTART,
                                                       GL_PRIMITIVE_RESTART_FIXED_INDEX,
@@ -110,7 +112,7 @@ void restore_state(const state_guard* guard) {
                       (GLenum)guard->blend[3]);
   glBlendEquationSeparate((GLenum)guard->blend_equation[0], (GLenum)guard->blend_equation[1]);
   glViewport(guard->viewport[0], guard->viewport[1], guard->viewport[2], guard->viewport[3]);
-  glScissor(guard->scissor_box[0], guard->scissor_box[1], guard->scissor_box[2], guard->scissor_box[3]);
+  glScissorIndexed(0, guard->scissor_box[0], guard->scissor_box[1], guard->scissor_box[2], guard->scissor_box[3]);
   glUseProgram((GLuint)guard->program);
   glBindVertexArray((GLuint)guard->vertex_array);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)guard->draw_framebuffer);

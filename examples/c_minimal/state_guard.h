@@ -20,7 +20,7 @@ typedef struct buffer_range {
 } buffer_range;
 
 typedef struct state_guard {
-  GLboolean capabilities[12];
+  GLboolean capabilities[14];
   GLboolean color_mask[4], depth_mask;
   GLint depth_function, cull_face, front_face, clip_origin, clip_depth;
   GLint polygon_mode[2]; /* of both sides; a core context fills the first alone */

@@ -217,6 +217,7 @@ std::vector<shadow::Light> lights_of(const penumbra_light* lights, std::size_t c
 shadow::Inputs inputs_of(const penumbra_frame& frame) {
   if (frame.reserved != 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_frame.reserved is not 0");
   if (frame.reserved_2 != 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_frame.reserved_2 is not 0");
+  if (frame.reserved_3 != 0) fail_with(PENUMBRA_ERROR_ARGUMENT, "penumbra_frame.reserved_3 is not 0");
   require_finite(frame.jitter, "penumbra_frame.jitter");
   shadow::Inputs inputs;
   inputs.view = {.view = matrix_of(frame.view, "penumbra_frame.view"),
@@ -238,6 +239,7 @@ shadow::Inputs inputs_of(const penumbra_frame& frame) {
   inputs.forward_receivers = box_of(frame.forward_receivers, "penumbra_frame.forward_receivers");
   if (frame.moved_is_known != 0) inputs.moved = box_of(frame.moved, "penumbra_frame.moved");
   inputs.mask_details = frame.mask_details != 0;
+  inputs.binds_forward = frame.no_forward_surfaces == 0;
   return inputs;
 }
 
@@ -325,8 +327,8 @@ penumbra_result penumbra_reads_motion(penumbra_device* device, const penumbra_se
 penumbra_result penumbra_forget_view(penumbra_device* device, int32_t view_id) {
   return run("penumbra_forget_view", [&] {
     const DeviceCall call(device);
-    device->masks.erase(view_id);
     call.shadows().forget_view(view_id);
+    device->masks.erase(view_id);
   });
 }
 
@@ -339,6 +341,7 @@ penumbra_result penumbra_warm_up(penumbra_device* device, const penumbra_setting
     call.shadows().warm_up({.conventions = conventions_of(given),
                             .lights = lights_of(given.lights, given.light_count),
                             .mask_details = given.mask_details != 0,
+                            .binds_forward = given.no_forward_surfaces == 0,
                             .depth = {.id = given.depth.id},
                             .normals = {.id = given.normals.id},
                             .motion = {.id = given.motion.id}},

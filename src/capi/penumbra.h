@@ -241,7 +241,8 @@ typedef struct penumbra_light {
   /** Of a lamp, m: the mask is 0 beyond it; 0 (default): unlimited. Casters nearer to the lamp than 1/2000 of it, or
    * where it is unlimited, of the distance to the farthest corner of penumbra_frame.receivers, cast no shadow. */
   float range;
-  const char* const* overrides; /**< "name=value": values of parameters for this light alone; null if there are none */
+  const char* const* overrides; /**< "name=value": values of parameters for this light alone; no presets; null if there
+                                   are none */
   size_t override_count;        /**< of overrides; default 0 */
 
   /** A texture of the engine's, by OpenGL's name, to one channel of which the light's visibility is written beside the
@@ -307,7 +308,8 @@ enum {
    * the least depth behind the nearest caster: the fragment shader writes gl_FragCoord.z + second_depth_gap, and
    * discards only what an alpha test does. The depth test is against the shadow map itself: leave it, the depth writes
    * that are off, and the blending; use this pass's own matrix, which maps.gap changes. Of closed objects draw only
-   * faces that face the light, else their undersides hide what lies below them. */
+   * faces that face the light, else their undersides hide what lies below them: front faces, with the winding that they
+   * have in the world, so glEnable(GL_CULL_FACE) is enough where these are counter-clockwise. */
   PENUMBRA_PASS_SECOND_DEPTH = 4,
   /** Triangles for shaders of the library (only with the technique shadow_volume): see geometry_shader. */
   PENUMBRA_PASS_GEOMETRY = 5
@@ -349,8 +351,9 @@ typedef struct penumbra_caster_pass {
 } penumbra_caster_pass;
 
 /** Draws casters and returns 0; another value ends penumbra_render() with PENUMBRA_ERROR_CALLBACK. Framebuffer,
- * viewport, scissor, depth test, clip control and culling are set, and polygon offset is off; the callback binds its
- * own programs and vertex arrays. Both faces of every triangle cast shadows unless the engine decides otherwise. A
+ * viewport, scissor, depth test and clip control are set; culling and polygon offset are off, front faces
+ * counter-clockwise and back faces those that would be culled, and no matrix mirrors; the callback binds its own
+ * programs and vertex arrays. Both faces of every triangle cast shadows unless the engine decides otherwise. A
  * caster that is drawn in several of these passes must get the same depths, to the bit, in each: compute positions by
  * the same expressions (`invariant gl_Position`). It must not call functions that take a device, or that make one. */
 typedef int32_t (*penumbra_draw_casters)(void* user, const penumbra_caster_pass* pass);
@@ -473,6 +476,11 @@ typedef struct penumbra_frame {
    * which are then made from depth, as without normals; the given ones say which pixels belong to one surface, and
    * stand in where too few do. */
   uint32_t normals_are_shading;
+  /** 1: no surface is drawn forward with the shadows of this frame, so penumbra_bind_forward() is not called. What such
+   * surfaces alone read is then not made: the shadow map of the technique shadow_volume, and second layers that
+   * maps.overlap finds to be of no use; default 0. */
+  uint32_t no_forward_surfaces;
+  uint32_t reserved_3; /**< 0 */
 } penumbra_frame;
 
 /** PENUMBRA_ERROR_ARGUMENT: `frame` is null or `struct_size` can be that of no version. */
@@ -511,12 +519,12 @@ PENUMBRA_API penumbra_result penumbra_reads_motion(penumbra_device* device, cons
 PENUMBRA_API penumbra_result penumbra_forget_view(penumbra_device* device, int32_t view_id);
 
 /** Compiles the programs and makes the tables that penumbra_render() needs with these settings and the frame's
- * conventions, lights and mask_details, so that no later frame of that kind has to. Of programs that eight calls of
- * penumbra_render() did not use, the device keeps the 512 that were used last. Draws three frames of 60 x 60
- * pixels with one caster of its own and maps of the settings' size, which are released afterwards: boxes,
- * matrices and callbacks of `frame` are not used and need not be set. Of its textures the formats are used, if they are
- * set: drivers may compile a program anew for another format. Programs that only an engine's own callback
- * compiles are not among them. Errors as for penumbra_render(). */
+ * conventions, lights, mask_details and no_forward_surfaces, so that no later frame of that kind has to. Of programs
+ * that eight calls of penumbra_render() did not use, the device keeps the 512 that were used last. Draws three frames
+ * of 60 x 60 pixels, six where maps.overlap may leave out a second layer, with one caster of its own and maps of the
+ * settings' size, which are released afterwards: boxes, matrices and callbacks of `frame` are not used and need not be
+ * set. Of its textures the formats are used, if they are set: drivers may compile a program anew for another format.
+ * Programs that only an engine's own callback compiles are not among them. Errors as for penumbra_render(). */
 PENUMBRA_API penumbra_result penumbra_warm_up(penumbra_device* device, const penumbra_settings* settings,
                                               const penumbra_frame* frame);
 
@@ -535,8 +543,9 @@ PENUMBRA_API penumbra_result penumbra_forward_source(penumbra_device* device, co
                                                      const penumbra_light* light, char* text, size_t capacity,
                                                      size_t* length);
 /** Binds what that function reads for lights[light_index] of the view's last penumbra_render(): textures and samplers
- * of units 0 to 7, uniform buffers 0 to 2. PENUMBRA_ERROR_ARGUMENT: the view has no mask, or fewer lights;
- * PENUMBRA_ERROR_CONTEXT. */
+ * of units 0 to 7, uniform buffers 0 to 2. So a draw reads one light: surfaces under several are drawn once for each,
+ * and blended. PENUMBRA_ERROR_ARGUMENT: the view has no mask, or fewer lights; PENUMBRA_ERROR_REFUSED: the frame had
+ * no_forward_surfaces, and lacks what they read; PENUMBRA_ERROR_CONTEXT. */
 PENUMBRA_API penumbra_result penumbra_bind_forward(penumbra_device* device, int32_t view_id, size_t light_index);
 /** Unbinds these textures and samplers. PENUMBRA_ERROR_ARGUMENT, CONTEXT. */
 PENUMBRA_API penumbra_result penumbra_unbind_forward(penumbra_device* device);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <span>
+#include <string_view>
 
 #include "../core/error.h"
 #include "../core/names.h"
@@ -102,7 +104,12 @@ penumbra_result penumbra_settings_set(penumbra_settings* settings, const char* n
   return run("penumbra_settings_set", [&] {
     penumbra::ParamSet& params = required(settings, "settings").params;
     checked(params, name);
-    params.set_text(name, &required(value, "value"));
+    const std::string_view text = &required(value, "value");
+    const std::span<const penumbra::shadow::Preset> presets = penumbra::shadow::built_in_registry().presets();
+    if (std::string_view(name) == "technique" &&
+        std::ranges::find(presets, text, &penumbra::shadow::Preset::name) != presets.end())
+      penumbra::fail("'{}' is a preset, not a technique: penumbra_settings_select() chooses it", text);
+    params.set_text(name, text);
   });
 }
 

@@ -30,6 +30,7 @@ constexpr std::array unwanted{GL_SCISSOR_TEST,        GL_DITHER,
                               GL_SAMPLE_SHADING,      GL_SAMPLE_ALPHA_TO_COVERAGE,
                               GL_SAMPLE_ALPHA_TO_ONE, GL_LINE_SMOOTH,
                               GL_POLYGON_SMOOTH,      GL_POLYGON_OFFSET_FILL,
+                              GL_POLYGON_OFFSET_LINE, GL_POLYGON_OFFSET_POINT,  // some drivers apply them to all faces
                               GL_PRIMITIVE_RESTART,   GL_PRIMITIVE_RESTART_FIXED_INDEX,
                               GL_PROGRAM_POINT_SIZE};
 

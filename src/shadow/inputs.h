@@ -84,9 +84,10 @@ enum class CasterKind {
 };
 
 // One call to the caller's code: draw these casters with these matrices. The framebuffer, viewport, scissor, depth
-// test, blending and culling are set; the callback binds its own programs and vertex arrays. Both sides of every
-// triangle cast shadows unless the caller decides otherwise, and polygon offset stays off. A caster that is drawn in
-// several of these passes must get bit-identical depths in each, so compute positions by the same expressions
+// test and blending are set; culling and polygon offset are off, front faces counter-clockwise and back faces those
+// that would be culled, and no matrix mirrors; the callback binds its own programs and vertex arrays. Both sides of
+// every triangle cast shadows unless the caller decides otherwise. A caster that is drawn in several of these passes
+// must get bit-identical depths in each, so compute positions by the same expressions
 // (`invariant gl_Position`). The kinds from depth_and_moved to moved_last are requested only when the denoiser keeps a
 // history.
 struct CasterPass {
@@ -195,7 +196,8 @@ struct Inputs {
   // does not move maps from frame to frame, since these receivers have no history.
   Box forward_receivers{glm::vec3(1), glm::vec3(-1)};
   // Whether SoftShadows::bind_forward() may follow this frame. If not, a technique that fills the mask by itself needs
-  // no maps for its stand-in (Technique::stand_in), and bind_forward() throws Error for its lights.
+  // no maps for its stand-in (Technique::stand_in), maps.overlap may leave out second layers, and bind_forward()
+  // throws Error for lights that lack what forward surfaces read.
   bool binds_forward = true;
   // World bounds of the casters that moved since the view's last frame, enclosing their present and their last
   // positions. Absent: unknown, so any caster may have moved. An empty box (min > max in every axis): none moved, and

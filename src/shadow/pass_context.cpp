@@ -146,7 +146,8 @@ void PassContext::evaluate(const gl::Texture& target, int layer) const {
 
 void PassContext::check_draws() const {
   if (!work_.inputs.draw)
-    fail("{} '{}' draws casters, and there is no caster callback", name_of(owner_.kind), owner_.name);
+    fail("soft shadows: light {}: {} '{}' draws casters, and there is no caster callback", light().id,
+         name_of(owner_.kind), owner_.name);
 }
 
 CasterPass PassContext::caster_pass(CasterKind kind, int layer) const {

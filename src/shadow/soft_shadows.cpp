@@ -42,8 +42,9 @@ std::optional<bool> clip_space_of_caller(bool first_frame_of_all) {
 // The scope of a call: OpenGL's entry points are those of the device's driver.
 class Call {
  public:
-  explicit Call(gl::Device& device) : scope_(device) {
-    if (!scope_.has_context())
+  // `looks`: asks OpenGL whether the context is still current on the thread on which it was last.
+  explicit Call(gl::Device& device, bool looks = false) : scope_(device) {
+    if (looks ? !scope_.finds_context() : !scope_.has_context())
       throw gl::ContextError(fmt::format("{}: the device's OpenGL context is not current on this thread", subject));
   }
 
@@ -178,7 +179,7 @@ void SoftShadows::check_earlier_frames() {
   check_nothing_is_left_out();
   throw gl::ContextError(
       fmt::format("{}: OpenGL left out what an earlier frame drew: conditional rendering or transform feedback was "
-                  "active; end it before",
+                  "active, or the device's context was not current",
                   subject));
 }
 
@@ -218,13 +219,14 @@ void SoftShadows::warm_up(const FrameKind& kind, const ParamSet& params) {
     const std::vector<Light> lights = warm_up_lights(device_, view.prefix, kind);
     FrameKind small = kind;
     small.lights = lights;
-    // Frames with maps.overlap need some programs with a second layer and some without, and these fewer of them where
-    // no surface is drawn forward.
+    // With maps.overlap a frame has a second layer or not. It always has one if surfaces are drawn forward.
     const bool asks_for_overlap = std::ranges::any_of(lights, [&](const Light& light) {
       const ParamSet& own = state_->params_of(registry_, params, light);
       return own.contains("maps.overlap") && own.get_float("maps.overlap") > 0 && own.get_int("maps.layers") > 1;
     });
-    for (const bool binds_forward : asks_for_overlap ? std::vector{true, false} : std::vector{true}) {
+    std::vector<bool> forward{kind.binds_forward};
+    if (asks_for_overlap && !kind.binds_forward) forward.push_back(true);
+    for (const bool binds_forward : forward) {
       const auto warm = [&](Inputs inputs) {
         inputs.binds_forward = binds_forward;
         draw(inputs, params, view);
@@ -238,25 +240,27 @@ void SoftShadows::warm_up(const FrameKind& kind, const ParamSet& params) {
 }
 
 void SoftShadows::forget_view(int id) {
-  const Call call(device_);
+  const Call call(device_, /*looks=*/true);
   state_->views.erase(id);
   device_.drop(view_prefix(id));
 }
 
 void SoftShadows::bind_forward(const Mask& mask, size_t light) {
-  const Call call(device_);
+  const Call call(device_, /*looks=*/true);
   const LightFrame& frame = mask.lights.at(light);
   const LightState& state = state_->views.at(frame.view).lights.at(frame.light);
   const Technique& forward = forward_technique(registry_, state.params);
   const bool lacks_layer = needs_second_layer(forward) && state.params.get_int("maps.layers") != state.asked_layers;
   if (!frame.binds_forward && (forward.name != state.params.get_word("technique") || lacks_layer))
-    fail("soft shadows: light {} has no maps for surfaces drawn forward: its frame had Inputs::binds_forward off",
-         frame.light);
+    fail(
+        "soft shadows: light {} has no maps for surfaces drawn forward: its frame said that there are none "
+        "(Inputs::binds_forward, penumbra_frame.no_forward_surfaces)",
+        frame.light);
   bind_light(device_, frame, state, owner_of(forward));
 }
 
 void SoftShadows::unbind_forward() {
-  const Call call(device_);
+  const Call call(device_, /*looks=*/true);
   gl::unbind_textures(first_pass_unit);
 }
 

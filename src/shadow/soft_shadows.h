@@ -27,6 +27,7 @@ struct FrameKind {
   Conventions conventions;
   std::span<const Light> lights;
   bool mask_details = false;
+  bool binds_forward = true;  // Inputs::binds_forward
   // The frame's textures, if there are some yet: drivers may compile a program for the format that it reads.
   TextureView depth, normals, motion;
 };

@@ -47,10 +47,12 @@ gl::ProgramDesc program(bool bounds) {
 }
 
 // Read where all tiles count: programs that read no decisions would be compiled besides, which takes longer than this.
-const gl::Texture& nothing_decided(gl::Device& device, const glm::ivec2& tiles) {
+// As large as the depth texture needs, not the viewport: a view whose size varies from frame to frame keeps it.
+const gl::Texture& nothing_decided(gl::Device& device, const std::string& prefix, const TextureView& depth) {
   constexpr glm::uvec4 no_decision(0, 0, 0, ~0u);  // must match glsl/shadow/drivers/decisions.glsl
+  const glm::ivec2 tiles = tile_count({.width = depth.width, .height = depth.height});
   const gl::Texture& decisions =
-      device.target("nothing decided", {.format = GL_RGBA32UI, .width = tiles.x, .height = tiles.y});
+      device.target(prefix + "nothing decided", {.format = GL_RGBA32UI, .width = tiles.x, .height = tiles.y});
   gl::glClearTexImage(decisions.id(), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, &no_decision);
   return decisions;
 }
@@ -98,7 +100,7 @@ std::optional<VisibleReceivers> find_visible_receivers(gl::Device& device, const
     device.sampler({}).bind(unit_receiver_depth);
     gl::glBindTextureUnit(unit_receiver_depth, inputs.depth.id);
     device.sampler({}).bind(unit_decisions);
-    (decisions != nullptr ? *decisions : nothing_decided(device, tiles)).bind(unit_decisions);
+    (decisions != nullptr ? *decisions : nothing_decided(device, prefix, inputs.depth)).bind(unit_decisions);
     buffer.bind_storage(found_binding);
     for (const bool bounds : {false, true}) {
       const gl::Program& reduce = pass.use(program(bounds));

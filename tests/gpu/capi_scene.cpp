@@ -126,6 +126,7 @@ penumbra_frame CInterface::frame_of(const shadow::Inputs& inputs, const Geometry
   frame.normals_scale = inputs.conventions.normals_scale;
   frame.normals_offset = inputs.conventions.normals_offset;
   frame.normals_are_shading = inputs.conventions.shading_normals ? 1 : 0;
+  frame.no_forward_surfaces = inputs.binds_forward ? 0 : 1;
   frame.depth_layer = inputs.depth.layer;
   frame.normals_layer = inputs.normals.layer;
   frame.motion_layer = inputs.motion.layer;

@@ -241,6 +241,24 @@ TEST_F(CapiTest, SecondLayersAreDrawn) {
   EXPECT_GT(c_->passes[PENUMBRA_PASS_SECOND_DEPTH], 0);
 }
 
+TEST_F(CapiTest, SecondLayersThatAreOfNoUseAreLeftOutWhereNoSurfaceIsDrawnForward) {
+  const TriangleScene scene = box_on_ground(48);
+  const Geometry geometry(scene);
+  penumbra_frame frame = frame_of(scene, geometry);
+  ASSERT_EQ(penumbra_settings_select(c_->settings, "slices"), PENUMBRA_OK);
+  for (const auto& [name, value] : std::map<const char*, double>{{"maps.layers", 2}, {"maps.overlap", 0.5}})
+    ASSERT_EQ(penumbra_settings_set_number(c_->settings, name, value), PENUMBRA_OK) << penumbra_last_error();
+  const std::vector<float> two = c_->render(frame);
+  EXPECT_GT(c_->passes[PENUMBRA_PASS_SECOND_DEPTH], 0);
+  EXPECT_EQ(penumbra_bind_forward(c_->device, frame.view_id, 0), PENUMBRA_OK) << penumbra_last_error();
+  c_->passes.clear();
+  frame.no_forward_surfaces = 1;
+  c_->render(frame);
+  EXPECT_EQ(c_->passes[PENUMBRA_PASS_SECOND_DEPTH], 0);
+  EXPECT_EQ(penumbra_bind_forward(c_->device, frame.view_id, 0), PENUMBRA_ERROR_REFUSED);
+  EXPECT_NE(std::string(penumbra_last_error()).find("no_forward_surfaces"), std::string::npos);
+}
+
 TEST_F(CapiTest, SeveralLightsWithOverridesAndOtherConventions) {
   TriangleScene scene = box_on_ground(48);
   scene.conventions.reversed_z = false;

@@ -31,6 +31,8 @@ void disturb_state() {
   gl::glEnable(GL_STENCIL_TEST);
   gl::glStencilFunc(GL_NEVER, 0, 0);
   gl::glEnable(GL_POLYGON_OFFSET_FILL);
+  gl::glEnable(GL_POLYGON_OFFSET_LINE);
+  gl::glEnable(GL_POLYGON_OFFSET_POINT);
   gl::glPolygonOffset(1000.0f, 1000.0f);
   for (GLenum i = 0; i < 8; ++i) gl::glEnable(GL_CLIP_DISTANCE0 + i);
   for (const GLenum capability : {GL_SAMPLE_COVERAGE, GL_SAMPLE_SHADING, GL_SAMPLE_ALPHA_TO_ONE,

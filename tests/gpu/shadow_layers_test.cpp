@@ -144,6 +144,36 @@ TEST_F(ShadowLayers, SmallMapsShowWhetherCastersOverlapInWidePenumbrae) {
   EXPECT_EQ(draw(false, 2, 0.01f).mask, draw(false, 1, 0).mask) << "nothing overlaps";
 }
 
+// The low half-plane, which the high one hides from the sun's centre, moves.
+TEST_F(ShadowLayers, ACasterBelowAnotherLeavesNoShadowBehindWhereItMoves) {
+  ParamSet params = renderer_->params();
+  params.set("technique", std::string("slices"));
+  params.set("sun.angle", angle);
+  params.set("history.reuse", true);
+  params.set("maps.layers", 2);
+  for (const char* present : {"own_pass", "shadow_pass"}) {
+    params.set("movement.present", std::string(present));
+    TriangleScene scene = half_planes(/*both=*/false, 16);
+    const std::size_t first = scene.triangles.size();
+    scene.add_quad({-12, low, -12}, {0, 0, 24}, {12 + low_edge, 0, 0});
+    const auto frame = [&](bool cut) {
+      return renderer_
+          ->render(scene, params,
+                   [&](shadow::Inputs& inputs) {
+                     inputs.view.cut = cut;
+                     inputs.view.last_view = inputs.view.view;
+                     inputs.view.last_projection = inputs.view.projection;
+                   })
+          .visibilities();
+    };
+    constexpr int frames = 8;
+    for (int i = 0; i < frames; ++i) frame(/*cut=*/i == 0);
+    scene.move_from(first, glm::vec3(-0.1f, 0, 0));
+    const std::vector<float> with_history = frame(/*cut=*/false), alone = frame(/*cut=*/true);
+    EXPECT_EQ(with_history, alone) << present;
+  }
+}
+
 // The names of all programs but those of the scene itself.
 std::multiset<std::string> compiled_programs() {
   std::multiset<std::string> names;
@@ -167,7 +197,7 @@ TEST_F(ShadowLayers, AfterAWarmUpNoFrameCompilesAProgramWhetherCastersOverlapOrN
   params.set("maps.overlap", 0.3f);
   const TriangleScene scene = half_planes(true, 128);
   const shadow::Light light{.source = shadow::Sun{scene.to_light}, .overrides = {}, .maps = {}};
-  renderer.shadows().warm_up({.lights = {&light, 1}, .mask_details = true}, params);
+  renderer.shadows().warm_up({.lights = {&light, 1}, .mask_details = true, .binds_forward = false}, params);
   const auto frames = [&](bool binds_forward) {
     for (const bool both : {false, true}) {
       renderer.render(half_planes(both, 128), params, [&](shadow::Inputs& inputs) {
@@ -310,7 +340,7 @@ TEST_F(ShadowLayers, FinishedMapsWithoutCastersCannotHaveOne) {
     });
     FAIL();
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "recipe 'second_layer' draws casters, and there is no caster callback");
+    EXPECT_STREQ(error.what(), "soft shadows: light 0: maps.layers=2 draws casters, and there is no caster callback");
   }
 }
 

@@ -287,7 +287,8 @@ TEST_F(ShadowMatrices, AreTakenByTheCInterface) {
     mask.struct_size = sizeof mask;
     EXPECT_EQ(penumbra_settings_set(c.settings, "technique", "shadow_volume"), PENUMBRA_OK);
     EXPECT_EQ(penumbra_render(c.device, c.settings, &frame, &mask), PENUMBRA_ERROR_REFUSED);
-    EXPECT_STREQ(penumbra_last_error(), "technique 'shadow_volume' draws casters, and there is no caster callback");
+    EXPECT_STREQ(penumbra_last_error(),
+                 "soft shadows: light 0: technique 'shadow_volume' draws casters, and there is no caster callback");
     EXPECT_EQ(penumbra_settings_set(c.settings, "technique", "pcss"), PENUMBRA_OK);
     std::vector<glm::mat4> backwards = matrices;
     std::swap(backwards[0], backwards[2]);

@@ -14,7 +14,7 @@
 namespace penumbra::test {
 namespace {
 
-constexpr std::array<GLenum, 29> capabilities{GL_DEPTH_TEST,
+constexpr std::array<GLenum, 31> capabilities{GL_DEPTH_TEST,
                                               GL_STENCIL_TEST,
                                               GL_SCISSOR_TEST,
                                               GL_BLEND,
@@ -31,6 +31,8 @@ constexpr std::array<GLenum, 29> capabilities{GL_DEPTH_TEST,
                                               GL_LINE_SMOOTH,
                                               GL_POLYGON_SMOOTH,
                                               GL_POLYGON_OFFSET_FILL,
+                                              GL_POLYGON_OFFSET_LINE,
+                                              GL_POLYGON_OFFSET_POINT,
                                               GL_PRIMITIVE_RESTART,
                                               GL_PRIMITIVE_RESTART_FIXED_INDEX,
                                               GL_PROGRAM_POINT_SIZE,

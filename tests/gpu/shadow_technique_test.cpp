@@ -239,7 +239,8 @@ TEST_F(ShadowTechnique, CastersThatNobodyDrawsAreAnErrorThatNamesTheTechnique) {
     frame([](shadow::Inputs& inputs) { inputs.draw = {}; });
     FAIL() << "nothing thrown";
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "technique 'cleared' draws casters, and there is no caster callback");
+    EXPECT_STREQ(error.what(),
+                 "soft shadows: light 0: technique 'cleared' draws casters, and there is no caster callback");
   }
 }
 

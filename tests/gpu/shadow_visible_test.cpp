@@ -7,10 +7,14 @@
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
+#include "gpu/gl_calls.h"
 #include "gpu/gpu_test.h"
 #include "gpu/triangle_scene.h"
 
@@ -271,6 +275,33 @@ TEST_F(ShadowVisible, LightsAndViewsHaveTheirOwnPenumbrae) {
   EXPECT_NE(first, second);
   EXPECT_EQ(finest(0, lights), (std::vector{first, second}));
   EXPECT_EQ(finest(1, lights), (std::vector{first, second}));
+}
+
+// As for a mirror, or the halves of a split screen; and where the resolution of a view varies.
+TEST_F(ShadowVisible, ViewsOfDifferentSizesMakeNoTextureInTurn) {
+  TriangleScene large = small_box_in_large(), small = large;
+  small.width = large.width / 2 + 8;
+  for (const char* fit : {"visible", "penumbrae"}) {
+    std::map<std::string, int> made;
+    for (int frame = 0; frame < 8; ++frame) {
+      std::optional<GlCalls> calls;
+      const int view = frame % 2;
+      renderer_->render(
+          view == 0 ? large : small, fine_params(params(fit)),
+          [&](shadow::Inputs& in) {
+            in.view.id = view;
+            in.view.last_view = in.view.view;
+            in.view.last_projection = in.view.projection;
+            if (frame >= 6) in.viewport = {0, 0, in.depth.width - 16, in.depth.height - 16};
+            calls.emplace(GlCalls::Kind::creations);
+          },
+          [&] {
+            if (frame >= 4) made.merge(calls->counts());
+            calls.reset();
+          });
+    }
+    EXPECT_EQ(made, (std::map<std::string, int>())) << fit;
+  }
 }
 
 // While only sky is seen the small maps rest, and what moves meanwhile is not lost.

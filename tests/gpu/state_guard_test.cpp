@@ -18,9 +18,10 @@ using State = std::map<GLenum, std::vector<double>>;
 // The state that engines set for their own passes.
 State present_state() {
   State state;
-  for (const GLenum name : {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_BLEND, GL_CULL_FACE, GL_DEPTH_CLAMP,
-                            GL_FRAMEBUFFER_SRGB, GL_POLYGON_OFFSET_FILL, GL_DITHER, GL_PRIMITIVE_RESTART,
-                            GL_PRIMITIVE_RESTART_FIXED_INDEX, GL_PROGRAM_POINT_SIZE})
+  for (const GLenum name :
+       {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_BLEND, GL_CULL_FACE, GL_DEPTH_CLAMP, GL_FRAMEBUFFER_SRGB,
+        GL_POLYGON_OFFSET_FILL, GL_POLYGON_OFFSET_LINE, GL_POLYGON_OFFSET_POINT, GL_DITHER, GL_PRIMITIVE_RESTART,
+        GL_PRIMITIVE_RESTART_FIXED_INDEX, GL_PROGRAM_POINT_SIZE})
     state[name] = {glIsEnabled(name) != 0 ? 1.0 : 0.0};
   const std::map<GLenum, std::size_t> values{{GL_SCISSOR_BOX, 4},
                                              {GL_VIEWPORT, 4},

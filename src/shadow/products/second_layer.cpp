@@ -1,3 +1,4 @@
+#include "../../core/error.h"
 #include "../pass_context.h"
 #include "../recipe.h"
 #include "../shadow_map.h"
@@ -21,6 +22,8 @@ const gl::Texture& build(const PassContext& context) {
   const float gap = context.params().get_float("maps.gap");
   for (int i = 0; i < projection.layers(); ++i) {
     if (unchanged[static_cast<size_t>(i)]) continue;
+    if (!context.inputs().draw)
+      fail("soft shadows: light {}: maps.layers=2 draws casters, and there is no caster callback", context.light().id);
     gl::PassDesc desc{.name = "second layer",
                       .colors = {{.texture = &map, .layer = i, .clear = glm::vec4(1)}},
                       .depth = gl::Attachment{.texture = &context.shadow_map(), .layer = i},
