@@ -44,6 +44,12 @@ class LightsTest : public RenderTest {
     return drawn;
   }
 
+  // The pixel that shows a place of the wall.
+  static glm::ivec2 place_of(const glm::vec2& wall) {
+    const float pixels_per_metre = 0.5f * height / (8 * std::tan(0.25f));
+    return glm::ivec2(width / 2 + pixels_per_metre * wall.x, height / 2 - pixels_per_metre * wall.y);
+  }
+
   scene::Scene scene_;
   const render::SunLight warm_{.to_light = glm::normalize(glm::vec3(0.6f, 0, 1)), .illuminance = {3, 2, 1}};
   const render::SunLight cold_{.to_light = glm::normalize(glm::vec3(-0.5f, 0.3f, 1)), .illuminance = {1, 2, 4}};
@@ -157,18 +163,39 @@ TEST_F(LightsTest, ALightKeepsItsHistoryWhenAnotherOneGoesOut) {
 }
 
 TEST_F(LightsTest, BlendedSurfacesAreLitByAllAndShadowedFromTheFirst) {
-  scene_.materials[0].alpha_mode = scene::AlphaMode::blend;
+  // A blended wall of full alpha behind an opaque square.
+  scene_.materials.push_back(scene_.materials[0]);
+  scene_.materials[1].alpha_mode = scene::AlphaMode::blend;
+  scene_.meshes[0].primitives[0].material = 1;
+  const glm::ivec2 open(4, 4), of_warm(place_of({-0.66f, 0})), of_cold(place_of({0.62f, -0.2f}));  // their shadows
+  const auto expect_at = [](const glm::ivec2& at, const std::vector<float>& seen, const std::vector<float>& expected) {
+    for (std::size_t i = 3 * static_cast<std::size_t>(at.y * width + at.x), end = i + 3; i < end; ++i) {
+      EXPECT_GT(expected[i], 0);
+      EXPECT_NEAR(seen[i], expected[i], 2 * expected[i] / 1024) << at.x << ", " << at.y;
+    }
+  };
   params.set_text("technique", "none");
-  const Drawn a = draw_with({warm_});
-  const Drawn b = draw_with({cold_});
-  const Drawn both = draw_with({warm_, cold_});
-  // In the middle there is the square before the wall, both of full alpha.
-  const std::size_t middle = 3 * static_cast<std::size_t>(height / 2 * width + width / 2);
-  for (std::size_t i = middle; i < middle + 3; ++i) {
-    const float sum = a.color[i] + b.color[i];
-    EXPECT_GT(sum, 0);
-    EXPECT_NEAR(both.color[i], sum, 2 * sum / 1024) << i;
-  }
+  const std::vector<float> warm = draw_with({warm_}).color, cold = draw_with({cold_}).color;
+  std::vector<float> sum = warm;
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += cold[i];
+  params.set_text("technique", "hard");
+  const std::vector<float> warm_first = draw_with({warm_, cold_}).color;
+  expect_at(open, warm_first, sum);
+  expect_at(of_warm, warm_first, cold);
+  expect_at(of_cold, warm_first, sum);
+  const std::vector<float> cold_first = draw_with({cold_, warm_}).color;
+  expect_at(open, cold_first, sum);
+  expect_at(of_warm, cold_first, sum);
+  expect_at(of_cold, cold_first, warm);
+}
+
+TEST_F(LightsTest, BlendedSurfacesThatFaceAwayFromTheLightAreDarkWhateverTheirSmoothNormals) {
+  scene_.roots.pop_back();  // the wall alone
+  scene_.materials[0].alpha_mode = scene::AlphaMode::blend;
+  scene_.meshes[0].primitives[0].normals.assign(4, {0.8f, 0, 0.6f});
+  const render::SunLight behind{.to_light = glm::normalize(glm::vec3(1, 0, -0.3f)), .illuminance = glm::vec3(3)};
+  params.set_text("technique", "hard");
+  EXPECT_EQ(std::ranges::max(draw_with({behind}).color), 0);
 }
 
 TEST_F(LightsTest, AFrameWithoutLightsOrWithTooManyIsRefused) {
