@@ -29,17 +29,38 @@ scene::Scene white_square(const scene::Material& material) {
   return scene;
 }
 
-TEST_F(LightingTest, RoughPlaneFacingTheSunReturnsItsLightOverPi) {
-  const scene::Scene scene = white_square({.base_color = {0.8f, 0.4f, 0.2f, 1}, .metallic = 0, .roughness = 1});
-  inputs.camera = inputs.last_camera = render::look_at({0, 0, 40}, {0, 0, 0}, 0.08f, 0.01f);
-  sun().illuminance = glm::vec3(2);
+// glTF 2.0, appendix B, where the half vector is the normal: for white light from the mirror image of the eye, at that
+// cosine to both.
+glm::vec3 mirrored_radiance(const scene::Material& material, float cosine) {
+  const float alpha = std::max(material.roughness * material.roughness, 0.005f), square = alpha * alpha;
+  const glm::vec3 color(material.base_color), at_normal = glm::mix(glm::vec3(0.04f), color, material.metallic);
+  const glm::vec3 fresnel = at_normal + (1.0f - at_normal) * std::pow(1 - cosine, 5.0f);
+  const float visibility = 0.25f / (cosine * std::sqrt(cosine * cosine * (1 - square) + square));
+  const glm::vec3 diffuse = (1.0f - fresnel) * color * (1 - material.metallic);
+  return cosine * glm::one_over_pi<float>() * (diffuse + fresnel * visibility / square);
+}
+
+TEST_F(LightingTest, DiffuseAndMirroredLightAreThoseOfGltf) {
   params.set("exposure.ev", unit_ev());
-  draw(scene);
-  const glm::vec3 seen = pixel3("color", width / 2, height / 2);
-  // glTF's material of roughness 1 at normal incidence: 0.96 diffuse, and 0.04 · 1/4 from the surface.
-  for (int i = 0; i < 3; ++i) {
-    const float expected = 2.0f / glm::pi<float>() * (0.96f * scene.materials[0].base_color[i] + 0.01f);
-    EXPECT_NEAR(seen[i], expected, 0.01f * expected);
+  for (const float cosine : {1.0f, 0.2f}) {
+    const glm::vec3 back(0, -std::sqrt(1 - cosine * cosine), cosine);
+    inputs.camera = render::look_at(4.0f * back, {0, 0, 0}, 1, 0.01f);
+    inputs.camera.orthographic = true;
+    inputs.camera.half_height = 0.5f * cosine;
+    inputs.last_camera = inputs.camera;
+    sun() = {.to_light = {0, -back.y, back.z}, .illuminance = glm::vec3(2)};
+    for (const float roughness : {1.0f, 0.2f, 0.0f}) {
+      const float tolerance = roughness > 0 ? 0.01f : 0.05f;  // the narrowest highlight shows that normals are rounded
+      for (const float metallic : {0.0f, 0.6f, 1.0f}) {
+        const scene::Scene scene =
+            white_square({.base_color = {0.8f, 0.4f, 0.2f, 1}, .metallic = metallic, .roughness = roughness});
+        draw(scene);
+        const glm::vec3 seen = pixel3("color", width / 2, height / 2);
+        const glm::vec3 expected = 2.0f * mirrored_radiance(scene.materials[0], cosine);
+        for (int i = 0; i < 3; ++i)
+          EXPECT_NEAR(seen[i], expected[i], tolerance * expected[i]) << cosine << ' ' << roughness << ' ' << metallic;
+      }
+    }
   }
 }
 
@@ -161,6 +182,44 @@ TEST_F(LightingTest, BlendedSurfacesLieOverWhatIsBehindInAnOrthographicPicture) 
   EXPECT_NEAR(seen.r, 0.75f, 5e-3f);
   EXPECT_NEAR(seen.g, 0.5f, 5e-3f);
   EXPECT_NEAR(seen.b, 0.25f, 5e-3f);
+}
+
+// In a file without lights, an emission of 1 is the luminance of white in the sun; otherwise it is in nits.
+TEST_F(LightingTest, EmissionIsAddedToTheLightOfASurface) {
+  params.set("exposure.ev", unit_ev());
+  scene::Scene scene = white_square({.roughness = 1, .emissive = {2, 0.5f, 0.25f}});
+  sun() = {.to_light = {0, 0, -1}, .illuminance = glm::vec3(3)};
+  draw(scene);
+  const glm::vec3 expected = scene.materials[0].emissive;
+  const glm::vec3 by_white = pixel3("color", width / 2, height / 2) * glm::pi<float>() / 3.0f;
+  scene.lights = {{.intensity = 1}};
+  scene.nodes[0].light = 0;
+  draw(scene);
+  const glm::vec3 in_nits = pixel3("color", width / 2, height / 2);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(by_white[i], expected[i], 0.01f * expected[i]);
+    EXPECT_NEAR(in_nits[i], expected[i], 0.01f * expected[i]);
+  }
+}
+
+TEST_F(LightingTest, ABlendedSurfaceOfFullAlphaLooksLikeAnOpaqueOne) {
+  params.set("exposure.ev", unit_ev());
+  params.set("render.sky_light", 0.5f);
+  sun() = {.to_light = glm::normalize(glm::vec3(0.5f, 0.3f, 1)), .illuminance = glm::vec3(2)};
+  scene::Scene scene = white_square({.base_color = {0.8f, 0.4f, 0.2f, 1},
+                                     .metallic = 0.2f,
+                                     .roughness = 0.4f,
+                                     .occlusion_texture = {.texture = 0},
+                                     .emissive = {0.25f, 0.125f, 0.25f}});
+  scene.images.push_back({.name = "occluded", .rgba = {51, 0, 0, 255}});
+  scene.textures.push_back({.image = 0});
+  scene.meshes[0].primitives[0].uvs[0].assign(4, {0.5f, 0.5f});
+  draw(scene);
+  const std::vector<float> opaque = renderer.read_aov("color");
+  scene.materials[0].alpha_mode = scene::AlphaMode::blend;
+  draw(scene);
+  const std::vector<float> blended = renderer.read_aov("color");
+  for (std::size_t i = 0; i < opaque.size(); ++i) ASSERT_NEAR(blended[i], opaque[i], 0.01f * opaque[i]) << i;
 }
 
 TEST_F(LightingTest, StrongEmissionKeepsItsHue) {
