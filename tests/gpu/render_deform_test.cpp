@@ -248,8 +248,30 @@ TEST_F(DeformTest, GeometricNormalsFollowTheMorph) {
   }
 }
 
-// A quarter turn of a normal map's square, by its node or by a joint.
-TEST_F(DeformTest, TangentsFollowTheJoints) {
+// A tilted square's normals, which lean to the side by a morph, under a joint that stretches and flattens it.
+TEST_F(DeformTest, NormalsFollowTheMorphAndTheJoints) {
+  const glm::mat3 tilt = glm::mat3_cast(glm::angleAxis(-0.7f, glm::vec3(1, 0, 0)));
+  const glm::vec3 stretch(1, 2, 0.5f), lean(0.8f, 0, 0);
+  scene::Primitive quad = square();
+  for (glm::vec3& position : quad.positions) position = tilt * position;
+  quad.normals.assign(4, tilt[2]);
+  quad.joints.assign(4, {0, 0, 0, 0});
+  quad.weights.assign(4, {1, 0, 0, 0});
+  quad.targets.resize(1);
+  quad.targets[0].normals.assign(4, lean);
+  scene::Scene scene;
+  add_node(scene, quad, glm::mat4(1)).skin = 0;
+  scene.meshes[0].default_weights = {0.5f};
+  scene.skins.push_back({.name = "skin", .joints = {1}, .inverse_bind = {glm::mat4(1)}});
+  scene.nodes.push_back({.name = "joint", .transform = {.scale = stretch}});
+  scene.roots.push_back(1);
+  draw(scene);
+  const glm::vec3 expected = glm::normalize((tilt[2] + 0.5f * lean) / stretch);
+  EXPECT_LT(glm::distance(pixel3("normal", width / 2 + 3, height / 2), expected), 1e-3f);
+}
+
+// A scene whose normal map leans to the side of the tangents, and a square for it.
+std::pair<scene::Scene, scene::Primitive> leaning_square() {
   scene::Primitive quad = square();
   quad.tangents.assign(4, {1, 0, 0, 1});
   quad.uvs[0].assign(4, {0.5f, 0.5f});
@@ -258,6 +280,23 @@ TEST_F(DeformTest, TangentsFollowTheJoints) {
   scene.images.push_back({.name = "leaning to the right", .rgba = {204, 128, 230, 255}});
   scene.textures.push_back({.image = 0});
   scene.materials.push_back({.normal_texture = {.texture = 0}});
+  return {scene, quad};
+}
+
+TEST_F(DeformTest, TangentsFollowTheMorph) {
+  auto [scene, quad] = leaning_square();
+  quad.targets.resize(1);
+  quad.targets[0].tangents.assign(4, {-2, 2, 0});
+  add_node(scene, quad, glm::mat4(1));
+  scene.meshes[0].default_weights = {0.5f};
+  draw(scene);
+  const glm::vec3 normal = pixel3("normal", width / 2 + 3, height / 2);
+  EXPECT_LT(glm::distance(normal, glm::vec3(0, 0.6f, 0.8f)), 0.01f);
+}
+
+// A quarter turn of a normal map's square, by its node or by a joint.
+TEST_F(DeformTest, TangentsFollowTheJoints) {
+  auto [scene, quad] = leaning_square();
   const scene::Transform quarter{.rotation = glm::angleAxis(glm::half_pi<float>(), glm::vec3(0, 0, 1))};
   add_node(scene, quad, glm::mat4_cast(quarter.rotation));
   draw(scene);
