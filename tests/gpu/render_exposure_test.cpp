@@ -90,6 +90,26 @@ TEST_F(Exposure, IsTwiceAsBrightWithOneMoreStop) {
   EXPECT_FLOAT_EQ(measured(64, 64, grey, -2), usual / 4);
 }
 
+TEST_F(Exposure, IsLimitedInDarkPicturesAndBrightOnes) {
+  for (const float radiance : {0.0f, 0.02f, 0.1f})
+    EXPECT_FLOAT_EQ(measured(64, 64, [&](int, int) { return Pixel{.radiance = radiance}; }), 6) << radiance;
+  for (const float radiance : {2.0f, 10.0f, 60000.0f})
+    EXPECT_FLOAT_EQ(measured(64, 64, [&](int, int) { return Pixel{.radiance = radiance}; }), 0.7f) << radiance;
+}
+
+TEST_F(Exposure, CountsBlackAndDazzlingPixelsAsAThousandthAndAHundred) {
+  const auto with = [&](float radiance, int columns) {
+    return measured(64, 64, [&](int x, int) { return Pixel{.radiance = x < columns ? radiance : 1}; });
+  };
+  EXPECT_NEAR(with(0, 16), std::pow(1e3, 0.25), 1e-4);
+  EXPECT_NEAR(with(60000, 4), std::pow(1e-2, 1.0 / 16), 1e-4);
+}
+
+TEST_F(Exposure, TakesNoAlbedoForLessThanATwentieth) {
+  for (const float root : {0.0f, 0.1f})
+    EXPECT_NEAR(measured(64, 64, [&](int, int) { return Pixel{.radiance = 0.05f, .root_of_albedo = root}; }), 1, 1e-4);
+}
+
 // As ADR 32 has it, of ground that fills the picture, at noon and in the evening.
 TEST_F(RenderTest, SunlitSurfacesAreDisplayedByTheirAlbedo) {
   inputs.camera = inputs.last_camera = render::look_at({0, 2, 2}, {0, 0, 0}, 0.6f, 0.01f);
