@@ -128,6 +128,34 @@ TEST_F(SkyTest, TheGroundBeyondTheSceneLooksLikeTheOneBelowIt) {
   EXPECT_GT(compared, 100);
 }
 
+// A level view from high above a small scene: in each column the ground below the horizon has all but its own light
+// from the haze.
+TEST_F(SkyTest, HazeHasTheColourOfTheSkyAsHighAboveTheHorizonAsItIsBelow) {
+  inputs.camera = inputs.last_camera = render::look_at({0, 12, 0}, {3, 12, 9}, 0.12f, 0.1f);
+  scene::Scene scene;
+  add_node(scene, square(), glm::rotate(glm::mat4(1), -glm::half_pi<float>(), {1, 0, 0}));
+  draw(scene);
+  const std::vector<float> seen = column(width / 2);
+  EXPECT_GT(seen.front(), 1.1f * seen[height / 2 - 1]) << "another colour than the horizon";
+  for (std::size_t y = 0; y < height / 2; ++y) EXPECT_NEAR(seen[height - 1 - y], seen[y], 0.005f * seen[y]) << y;
+}
+
+TEST_F(SkyTest, OrthographicPicturesShowTheGroundWithoutHazeHoweverFarItIs) {
+  inputs.camera = render::look_at({0, 2, 9}, {0, 1.97f, 8}, 1.0f, 0.1f);
+  inputs.camera.orthographic = true;
+  inputs.camera.half_height = 3;
+  inputs.last_camera = inputs.camera;
+  draw(stage());
+  const std::vector<float> seen = column(2), depth = renderer.read_aov("depth");
+  int of_scene = 0, beyond = 0;
+  for (std::size_t y = 0; y < height; ++y) {
+    ++(depth[y * width + 2] > 0 ? of_scene : beyond);
+    EXPECT_NEAR(seen[y], seen[0], 0.01f * seen[0]) << y;
+  }
+  EXPECT_GT(of_scene, 3);
+  EXPECT_GT(beyond, 20);
+}
+
 TEST_F(SkyTest, LampsMakeNoSky) {
   // Nothing is known of what they light around a scene: it is as bright everywhere, and no haze colours it.
   inputs.lights = {render::LampLight{.position = {0, 3, 3}, .intensity = glm::vec3(40)}};
