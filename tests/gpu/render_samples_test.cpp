@@ -113,6 +113,36 @@ TEST_F(SamplesTest, AnOrthographicCameraHasThemToo) {
   EXPECT_GT(check_edges(red(8), 8, varies * lit, [&](float share) { return share * lit; }), height / 2);
 }
 
+// The screen is the upper face of a box whose side, in the right half of the picture, faces away from the sun.
+TEST_F(SamplesTest, WhereTwoFacesMeetEachHasItsOwnShadow) {
+  stage.nodes.clear();
+  stage.meshes.clear();
+  stage.roots.clear();
+  add(square(), screen_at(0));
+  const glm::vec3 along(-across.y, across.x, 0), down(0.6f * across, -0.8f), normal(0.8f * across, 0.6f);
+  add(square(), glm::mat4({8.0f * down, 0}, {8.0f * along, 0}, {normal, 0}, {8.0f * down, 1}));
+  const float lit = red(1)[height / 2 * width + width / 4];
+  ASSERT_GT(lit, 0.1f);
+  EXPECT_GT(check_edges(red(8), 8, varies * lit, [&](float share) { return share * lit; }), height / 2);
+}
+
+// A lit wire that is half as wide as a pixel, before ground that is in shadow: most of its samples are in pixels whose
+// middles show the ground.
+TEST_F(SamplesTest, AWireIsLitThoughPixelsBesideItAreInShadow) {
+  add(square(), glm::scale(glm::translate(screen_at(1.5f), {1.07f, 0, 0}), glm::vec3(0.015f / 8, 1, 1)));
+  const auto brightness = [&](const std::vector<float>& picture) {
+    float sum = 0;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        if (glm::dot(from_middle(x, y, width, height, {}), across) > 2)
+          sum += picture[static_cast<std::size_t>(y * width + x)];
+    return sum;
+  };
+  const float reference = brightness(red(1, 8));
+  EXPECT_GT(reference, 1);
+  EXPECT_NEAR(brightness(red(16)), reference, 0.05f * reference);
+}
+
 // The largest difference between the share of points in a half plane and its share of the pixel's area.
 float half_plane_discrepancy(const std::vector<glm::vec2>& points) {
   constexpr int directions = 90, steps = 60, fine = 40;
