@@ -52,14 +52,19 @@ float smooth_lean() {
 
 // The triangle's geometric normal in world space, on the camera's side, not of unit length. It comes from the
 // triangle's vertices, because derivatives of the position are too inexact for wide kernels, which multiply the error.
-// Lines and points take their shading normal, or where the node's matrix leaves none the direction to the camera.
+// Triangles without area, lines and points take their shading normal, or where there is none a direction to the camera.
 vec3 geometric_normal() {
 #if TRIANGLES
   uint at = 3u * (surface.first_triangle + uint(gl_PrimitiveID));
   vec3 n = mat3(surface.area_x, surface.area_y, surface.area_z) *
            vec3(triangle_normals[at], triangle_normals[at + 1u], triangle_normals[at + 2u]);
   float size = max(abs(n.x), max(abs(n.y), abs(n.z)));
-  if (!(size > 0.0)) return gl_FrontFacing ? surface.normal : -surface.normal;
+  if (!(size > 0.0)) {
+    // On the screen rounding may give a triangle without area some pixels. Software rasterisers interpolate nothing
+    // finite over a part of them.
+    if (!(dot(surface.normal, surface.normal) > 0.0)) return -view.forward.xyz;
+    return gl_FrontFacing ? surface.normal : -surface.normal;
+  }
   return n * ((gl_FrontFacing ? 1.0 : -1.0) / size);
 #else
   if (!(dot(surface.normal, surface.normal) > 0.0)) return -view_ray();

@@ -61,6 +61,49 @@ TEST_F(GBufferTest, GeometricNormalIsExactAndFacesTheCamera) {
   }
 }
 
+// Corners on a line, which rounding on the screen moves apart by so much that some triangles cover a pixel's middle.
+TEST_F(GBufferTest, GeometricNormalsOfTrianglesWithoutAreaAreTheSmoothOnes) {
+  const glm::vec3 normal(0, 0.6f, 0.8f), edge(0.75f, 0.0625f, 0);
+  scene::Primitive needles;
+  for (int i = 0; i < 4000; ++i) {
+    for (const float corner : {0.0f, 1.0f, 2.0f}) {
+      needles.indices.push_back(static_cast<std::uint32_t>(needles.positions.size()));
+      needles.positions.push_back(glm::vec3(-1, static_cast<float>(i) / 2048 - 1, 0) + corner * edge);
+      needles.normals.push_back(normal);
+    }
+  }
+  scene::Scene scene;
+  add_node(scene, needles, glm::mat4(1));
+  draw(scene);
+  const std::vector<float> depth = renderer.read_aov("depth"), seen = renderer.read_aov("geometric_normal");
+  int smooth = 0;
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (depth[i] == 0) continue;
+    const glm::vec3 found(seen[3 * i], seen[3 * i + 1], seen[3 * i + 2]);
+    const bool is_smooth = glm::distance(found, normal) < 1e-4f;
+    smooth += is_smooth ? 1 : 0;
+    EXPECT_TRUE(is_smooth || found == glm::vec3(0, 0, 1)) << i << ": nor is it to the camera, without a smooth one";
+  }
+  EXPECT_GT(smooth, 0);
+}
+
+TEST_F(GBufferTest, NormalMapsLeanAsFarAsTheirScaleSays) {
+  scene::Primitive quad = square();
+  quad.tangents.assign(4, {1, 0, 0, 1});
+  quad.uvs[0].assign(4, {0.5f, 0.5f});
+  quad.material = 0;
+  scene::Scene scene;
+  scene.images.push_back({.name = "leaning to the right", .rgba = {204, 128, 230, 255}});
+  scene.textures.push_back({.image = 0});
+  add_node(scene, quad, glm::mat4(1));
+  for (const float scale : {1.0f, 0.5f, -2.0f}) {
+    scene.materials = {{.normal_texture = {.texture = 0}, .normal_scale = scale}};
+    draw(scene);
+    const glm::vec3 expected = glm::normalize(glm::vec3(0.6f * scale, 0, 0.8f));
+    EXPECT_LT(glm::distance(pixel3("normal", width / 2, height / 2), expected), 0.01f) << scale;
+  }
+}
+
 TEST_F(GBufferTest, ShadingNormalsOfBackFacesTurnRound) {
   scene::Scene scene;
   scene.materials.push_back({.double_sided = true});
@@ -118,6 +161,14 @@ TEST_F(GBufferTest, MotionOfAMovedCameraIsTheReprojection) {
     EXPECT_NEAR(motion[0], static_cast<float>(at.x) + 0.5f - was.x, 1e-3f);
     EXPECT_NEAR(motion[1], static_cast<float>(at.y) + 0.5f - was.y, 1e-3f);
   }
+}
+
+TEST_F(GBufferTest, WhatWasBehindTheCameraHasNoMotion) {
+  scene::Scene scene;
+  add_node(scene, square(), glm::mat4(1));
+  inputs.last_camera = render::look_at({0, 0, 4}, {0, 0, 8}, 1.0f, 0.01f);
+  draw(scene);
+  EXPECT_EQ(pixel("motion", width / 2 + 5, height / 2 + 3), (std::vector<float>{0, 0}));
 }
 
 TEST_F(GBufferTest, MotionOfAMovedObjectIsItsPath) {
