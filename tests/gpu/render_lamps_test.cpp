@@ -1,5 +1,6 @@
 // Light of spots and point lamps: KHR_lights_punctual in closed form, and several lights at once.
 #include <cmath>
+#include <tuple>
 
 #include "render_scenes.h"
 
@@ -103,6 +104,19 @@ TEST_F(LampLightTest, ALampOnASurfaceGivesFiniteLight) {
     for (const float value :
          color_with({render::LampLight{.position = {0, 0, 1e-7f}, .radius = radius, .intensity = glm::vec3(1e12f)}}))
       ASSERT_TRUE(std::isfinite(value)) << radius;
+  }
+}
+
+// Than its radius, or a hundredth of a metre if that is more.
+TEST_F(LampLightTest, ALampThatIsNearerLightsNoMoreBrightly) {
+  const glm::vec3 wall = wall_at(width / 2, height / 2);
+  const std::vector<float> sun = color_with({render::SunLight{.to_light = {0, 0, 1}, .illuminance = glm::vec3(1)}});
+  for (const auto& [radius, distance, nearest] :
+       {std::tuple(0.5f, 0.25f, 0.5f), {0.5f, 1.0f, 1.0f}, {0, 2e-3f, 1e-2f}}) {
+    const std::vector<float> lamp = color_with(
+        {render::LampLight{.position = wall + glm::vec3(0, 0, distance), .radius = radius, .intensity = glm::vec3(1)}});
+    const float expected = red(sun, width / 2, height / 2) / (nearest * nearest);
+    EXPECT_NEAR(red(lamp, width / 2, height / 2), expected, 0.01f * expected) << radius << ' ' << distance;
   }
 }
 
