@@ -49,12 +49,17 @@ TEST(GltfMaterial, ReadsFactorsAndExtensions) {
   const scene::Material material =
       load_material(R"("pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0.25,0.5],"metallicFactor":0,)"
                     R"("roughnessFactor":0.5},"emissiveFactor":[1,0.5,0],"alphaMode":"MASK","alphaCutoff":0.25,)"
+                    R"("normalTexture":{"index":0,"scale":0.25},"occlusionTexture":{"index":0,"strength":0.75},)"
+                    R"("emissiveTexture":{"index":0,"extensions":{"KHR_texture_transform":{"texCoord":1}}},)"
                     R"("doubleSided":true,"extensions":{"KHR_materials_unlit":{},)"
                     R"("KHR_materials_emissive_strength":{"emissiveStrength":4}})")
           .materials[0];
   EXPECT_EQ(material.base_color, glm::vec4(1, 0.5f, 0.25f, 0.5f));
   EXPECT_EQ(material.roughness, 0.5f);
+  EXPECT_EQ(material.normal_scale, 0.25f);
+  EXPECT_EQ(material.occlusion_strength, 0.75f);
   EXPECT_EQ(material.emissive, glm::vec3(4, 2, 0));
+  EXPECT_EQ(material.emissive_texture.uv_set, 1);
   EXPECT_EQ(material.alpha_cutoff, 0.25f);
   EXPECT_EQ(material.alpha_mode, scene::AlphaMode::mask);
   EXPECT_TRUE(material.double_sided && material.unlit);
