@@ -143,6 +143,17 @@ TEST(Animation, JumpsWhereOnlyItsVeryLastKeyClosesALoop) {
   };
   EXPECT_TRUE(jumps_between(with_last(Interpolation::linear, 8), 1.9, 2.1));
   EXPECT_FALSE(jumps_between(with_last(Interpolation::linear, 5), 1.9, 2.1));
+  EXPECT_FALSE(jumps_between(with_last(Interpolation::step, 8), 1.9, 2.1)) << "steps come to no key before it is there";
+  Scene longer = with_last(Interpolation::linear, 8);
+  longer.animations[0].channels.push_back(channel(Path::scale, Interpolation::linear, {0, 3}, {1, 1, 1, 1, 1, 1}));
+  longer.animations[0].duration = 3;
+  EXPECT_FALSE(jumps_between(longer, 2.9, 3.1)) << "until the end, the very last key holds";
+}
+
+TEST(Animation, JumpsWhereALoopEndsTurnedAway) {
+  const Animation quarter{
+      .channels = {channel(Path::rotation, Interpolation::linear, {0, 1}, {0, 0, 0, 1, 0, 0.6f, 0, 0.8f}, 4)}};
+  EXPECT_TRUE(jumps_between(scene_with({quarter}), 0.9, 1.1));
 }
 
 TEST(Animation, DoesNotJumpWhereALoopEndsAsItBegan) {
@@ -251,6 +262,18 @@ TEST(Bounds, HoldEveryInstanceWhenBoxesStandIn) {
   const Bounds bounds = bounds_of(scene, pose_at(scene, 0));
   EXPECT_EQ(bounds.min, glm::vec3(0));
   EXPECT_EQ(bounds.max, glm::vec3(8, 9, 9));
+}
+
+TEST(Bounds, HoldMorphsOfEitherSignWhenBoxesStandIn) {
+  Scene scene = triangle_scene();
+  scene.nodes[0].instances.resize(1'000'000);  // three million vertices, beyond the exact count
+  scene.meshes[0].primitives[0].targets = {{.positions = {{-1, 0, 0}, {3, 0, 0}, {0, 2, 0}}}};
+  for (const float weight : {1.0f, -1.0f}) {
+    scene.meshes[0].default_weights = {weight};
+    const Bounds bounds = bounds_of(scene, pose_at(scene, 0));
+    EXPECT_EQ(bounds.min, weight > 0 ? glm::vec3(-1, 0, 0) : glm::vec3(-3, -2, 0));
+    EXPECT_EQ(bounds.max, weight > 0 ? glm::vec3(4, 3, 0) : glm::vec3(2, 1, 0));
+  }
 }
 
 TEST(Transform, SurvivesTheWayThroughAMatrix) {
