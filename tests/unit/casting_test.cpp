@@ -55,6 +55,9 @@ TEST(CastSetting, FollowsTheParametersWhereNothingElseIsSaid) {
   Node node;
   Material material;
   EXPECT_EQ(casting_faces(node, material, {.faces = CasterFaces::front}), CasterFaces::front);
+  node.casting = CastSetting::on;
+  EXPECT_EQ(casting_faces(node, material, {.faces = CasterFaces::front}), CasterFaces::front);
+  node.casting = CastSetting::automatic;
   material.double_sided = true;
   EXPECT_EQ(casting_faces(node, material, {.faces = CasterFaces::front}), CasterFaces::both) << "neither is a back";
   node.sky = true;

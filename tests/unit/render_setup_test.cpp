@@ -315,6 +315,32 @@ TEST(Setup, CameraAndSunFollowTheirNodes) {
   EXPECT_NEAR(setup.sun.to_light.y, 1, 1e-6f);
 }
 
+// Where the node's matrix gives no direction upwards, it is the world's, or for a camera that looks down its +Z.
+TEST(Setup, ACameraIsUprightWhereItsNodeIsFlat) {
+  scene::Scene scene = scene_of({box({-1, 0, -1}, {1, 2, 1})});
+  scene.cameras = {{.name = "x"}};
+  scene.nodes.push_back({.name = "camera", .camera = 0});
+  scene.roots.push_back(1);
+  for (const auto& [back, expected] : {std::pair(glm::vec3(0, 0, 1), glm::vec3(0, 1, 0)),
+                                       {glm::vec3(0, 1, 0), glm::vec3(0, 0, 1)},
+                                       {glm::vec3(0.6f, 0.8f, 0), glm::vec3(-0.8f, 0.6f, 0)}}) {
+    const glm::vec4 none(0);
+    scene.nodes[1].matrix = glm::mat4(none, none, glm::vec4(2.0f * back, 0), glm::vec4(6.0f * back, 1));
+    const glm::mat4 turn = glm::transpose(setup_of(scene, {.camera = "x"}).camera.view);
+    EXPECT_LT(glm::distance(glm::vec3(turn[1]), expected), 1e-6f) << back.x << ' ' << back.y;
+    EXPECT_LT(glm::distance(glm::vec3(turn[2]), back), 1e-6f) << back.x << ' ' << back.y;
+  }
+}
+
+TEST(Setup, TheNearPlaneIsHalfwayToTheScene) {
+  scene::Bounds bounds;
+  bounds.add({-1, 0, -1});
+  bounds.add({1, 2, 1});
+  EXPECT_FLOAT_EQ(render::near_plane_for(bounds, {0, 9, 4}), 0.5f * std::sqrt(49.0f + 9.0f));
+  EXPECT_FLOAT_EQ(render::near_plane_for(bounds, {0, 0.5f, 4}), 0.25f) << "there may be a ground plane below the eye";
+  EXPECT_FLOAT_EQ(render::near_plane_for(bounds, {0, 1, 0}), 1e-3f * std::sqrt(3.0f)) << "within it";
+}
+
 TEST(Setup, EmptyScenesHaveACameraToo) {
   const render::Setup setup = setup_of(scene::Scene{});
   EXPECT_TRUE(std::isfinite(render::position_of(setup.camera).x));
@@ -332,7 +358,12 @@ TEST(Setup, DirectionsAreCompassBearings) {
 scene::Scene scene_with_lights() {
   scene::Scene scene = scene_of({box({-9, -0.1f, -9}, {9, 0, 9})});
   scene.lights = {{.name = "lamp", .kind = scene::LightKind::point, .intensity = 20, .range = 7},
-                  {.name = "spot", .kind = scene::LightKind::spot, .intensity = 30, .inner_cone = 0.2f, .radius = 0.1f},
+                  {.name = "spot",
+                   .kind = scene::LightKind::spot,
+                   .intensity = 30,
+                   .inner_cone = 0.2f,
+                   .outer_cone = 0.6f,
+                   .radius = 0.1f},
                   {.name = "sun", .kind = scene::LightKind::directional, .intensity = 5},
                   {.name = "dark", .kind = scene::LightKind::point, .intensity = 0}};
   for (int i = 0; i < 4; ++i) {
@@ -362,7 +393,14 @@ TEST(Setup, AFileIsLitByItsOwnLights) {
   EXPECT_NEAR(spot.axis.y, -1, 1e-6f);
   EXPECT_FLOAT_EQ(spot.radius, 0.1f);
   EXPECT_FLOAT_EQ(spot.inner_cone, 0.2f);
+  EXPECT_FLOAT_EQ(spot.outer_cone, 0.6f);
   EXPECT_EQ(render::frame_lights(setup).size(), 3u);
+}
+
+TEST(Setup, ASpotShinesIntoAHalfSpaceAtMost) {
+  scene::Scene scene = scene_with_lights();
+  scene.lights[1].outer_cone = 2;
+  EXPECT_FLOAT_EQ(std::get<render::LampLight>(setup_of(scene).lights[1].light).outer_cone, 1.5707963f);
 }
 
 TEST(Setup, TheUserChoosesLights) {
