@@ -197,6 +197,35 @@ TEST_F(ShadowHistory, WithoutCastersToDrawItIsKeptOnlyWhereNothingMoved) {
   EXPECT_EQ(refusal(all), HISTORY_KEPT) << "nobody asked";
 }
 
+// A wall that turns about the middle of the picture, where its surface stays in place.
+TEST_F(ShadowHistory, ASurfaceThatIsTurnedIsAnotherOne) {
+  ParamSet params = renderer_->params();
+  params.set("history.reuse", true);
+  const auto refusal_after = [&](float turn) {
+    unsigned found = 0;
+    for (const float angle : {0.0f, glm::radians(turn)}) {
+      const glm::vec3 along = 2.0f * glm::vec3(std::cos(angle), 0, std::sin(angle));
+      TriangleScene scene;
+      scene.add_quad(-0.5f * along - glm::vec3(0, 1, 0), along, {0, 2, 0});
+      scene.to_light = glm::normalize(glm::vec3(0, 0.2f, 1));
+      scene.view = glm::lookAt(glm::vec3(0, 0, 4), glm::vec3(0), glm::vec3(0, 1, 0));
+      scene.projection = orthographic(0.5f, 0.5f, 0.1f, 8);
+      scene.width = scene.height = 33;
+      renderer_->render(scene, params, [&](shadow::Inputs& inputs) {
+        inputs.moved = shadow::Box{glm::vec3(1), glm::vec3(-1)};  // no caster
+        inputs.view.last_view = inputs.view.view;
+        inputs.view.last_projection = inputs.view.projection;
+        inputs.view.cut = angle == 0 && found == 0;
+      });
+      const std::vector<unsigned> notes = gl::read_uints(*renderer_->mask().lights[0].notes, 1);
+      found = glsl::notes_refusal(notes[notes.size() / 2]);
+    }
+    return found;
+  };
+  EXPECT_EQ(refusal_after(60), HISTORY_OTHER_SURFACE);
+  EXPECT_EQ(refusal_after(1), HISTORY_KEPT);
+}
+
 TEST_F(ShadowHistory, ItsMemoryIsGivenBack) {
   ParamSet params = renderer_->params();
   const TriangleScene scene = wide_penumbra();
