@@ -10,8 +10,10 @@ layout(binding = 1, rg32f) uniform writeonly restrict image2DArray squares;  // 
 uniform int layer;
 uniform ivec4 drawn;  // the lowest and the highest texel that casters were drawn to
 
-// Whether casters were drawn to all texels of a block and of the row around it, as far as the map has them.
+// Whether casters were drawn to all texels of a block and of the row around it, as far as the map has them; false for
+// blocks beyond the map.
 bool is_drawn(ivec2 block) {
+  if (any(greaterThan(4 * block, last_texel()))) return false;
   ivec2 first = max(4 * block - 1, ivec2(0)), last = min(4 * block + 4, last_texel());
   return all(greaterThanEqual(first, drawn.xy)) && all(lessThanEqual(last, drawn.zw));
 }

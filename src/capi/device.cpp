@@ -98,6 +98,8 @@ void DeviceCall::begin() {
   check_context(scope_.emplace(device_.objects->device).has_context());
 }
 
+void DeviceCall::look_for_context() { check_context(scope_->finds_context()); }
+
 const ParamSet& params_of(const penumbra_settings* settings) { return required(settings, "settings").params; }
 
 }  // namespace penumbra::capi

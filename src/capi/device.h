@@ -74,6 +74,8 @@ class DeviceCall {
   DeviceCall(penumbra_device& device, const OneCall& one);  // within that scope
 
   shadow::SoftShadows& shadows() const { return device_.objects->shadows; }
+  // Refuses where OpenGL says that the device's context is not current.
+  void look_for_context();
 
  private:
   void begin();

@@ -326,7 +326,8 @@ penumbra_result penumbra_reads_motion(penumbra_device* device, const penumbra_se
 
 penumbra_result penumbra_forget_view(penumbra_device* device, int32_t view_id) {
   return run("penumbra_forget_view", [&] {
-    const DeviceCall call(device);
+    DeviceCall call(device);
+    call.look_for_context();  // else what is deleted without it would be lost
     call.shadows().forget_view(view_id);
     device->masks.erase(view_id);
   });

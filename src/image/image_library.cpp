@@ -1,5 +1,7 @@
 #include "image/image_library.h"
 
+#include <sys/auxv.h>
+
 #include <filesystem>
 #include <vector>
 
@@ -20,13 +22,20 @@ std::vector<fs::path>& more_folders() {
   return folders;
 }
 
+// Without /proc, as in some change roots, the path that the program was started with.
+fs::path program_path(std::error_code& fault) {
+  const fs::path program = fs::read_symlink("/proc/self/exe", fault);
+  const unsigned long started = fault ? getauxval(AT_EXECFN) : 0;
+  return started == 0 ? program : fs::canonical(reinterpret_cast<const char*>(started), fault);
+}
+
 // Next to the program, as it is built; above a test's folder; or where it is installed.
 std::string module_path() {
   std::error_code fault;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", fault).parent_path();
+  const fs::path folder = program_path(fault).parent_path();
   if (fault)
-    fail("JPEG and EXR need {}, which lies beside the program; its place can't be read from /proc/self/exe: {}",
-         module_file, fault.message());
+    fail("JPEG and EXR need {}, which lies beside the program; where that is can't be told: {}", module_file,
+         fault.message());
   std::vector<fs::path> places{folder, folder / "..", folder / PENUMBRA_MODULE_FOLDER};
   places.insert(places.end(), more_folders().begin(), more_folders().end());
   for (const fs::path& place : places) {

@@ -42,9 +42,8 @@ std::optional<bool> clip_space_of_caller(bool first_frame_of_all) {
 // The scope of a call: OpenGL's entry points are those of the device's driver.
 class Call {
  public:
-  // `looks`: asks OpenGL whether the context is still current on the thread on which it was last.
-  explicit Call(gl::Device& device, bool looks = false) : scope_(device) {
-    if (looks ? !scope_.finds_context() : !scope_.has_context())
+  explicit Call(gl::Device& device) : scope_(device) {
+    if (!scope_.has_context())
       throw gl::ContextError(fmt::format("{}: the device's OpenGL context is not current on this thread", subject));
   }
 
@@ -240,13 +239,13 @@ void SoftShadows::warm_up(const FrameKind& kind, const ParamSet& params) {
 }
 
 void SoftShadows::forget_view(int id) {
-  const Call call(device_, /*looks=*/true);
+  const Call call(device_);
   state_->views.erase(id);
   device_.drop(view_prefix(id));
 }
 
 void SoftShadows::bind_forward(const Mask& mask, size_t light) {
-  const Call call(device_, /*looks=*/true);
+  const Call call(device_);
   const LightFrame& frame = mask.lights.at(light);
   const LightState& state = state_->views.at(frame.view).lights.at(frame.light);
   const Technique& forward = forward_technique(registry_, state.params);
@@ -260,7 +259,7 @@ void SoftShadows::bind_forward(const Mask& mask, size_t light) {
 }
 
 void SoftShadows::unbind_forward() {
-  const Call call(device_, /*looks=*/true);
+  const Call call(device_);
   gl::unbind_textures(first_pass_unit);
 }
 
