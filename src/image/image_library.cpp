@@ -26,6 +26,7 @@ std::vector<fs::path>& more_folders() {
 fs::path program_path(std::error_code& fault) {
   const fs::path program = fs::read_symlink("/proc/self/exe", fault);
   const unsigned long started = fault ? getauxval(AT_EXECFN) : 0;
+  // The kernel gives addresses as numbers. NOLINTNEXTLINE(performance-no-int-to-ptr)
   return started == 0 ? program : fs::canonical(reinterpret_cast<const char*>(started), fault);
 }
 

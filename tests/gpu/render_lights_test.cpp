@@ -47,7 +47,8 @@ class LightsTest : public RenderTest {
   // The pixel that shows a place of the wall.
   static glm::ivec2 place_of(const glm::vec2& wall) {
     const float pixels_per_metre = 0.5f * height / (8 * std::tan(0.25f));
-    return glm::ivec2(width / 2 + pixels_per_metre * wall.x, height / 2 - pixels_per_metre * wall.y);
+    constexpr glm::vec2 middle(0.5f * width, 0.5f * height);
+    return glm::ivec2(middle + pixels_per_metre * glm::vec2(wall.x, -wall.y));
   }
 
   scene::Scene scene_;
