@@ -1,13 +1,12 @@
 #include "image/image_library.h"
 
-#include <sys/auxv.h>
-
 #include <filesystem>
 #include <vector>
 
 #include "core/error.h"
 #include "gl/shared_library.h"
 #include "image/module_folder.h"
+#include "io/program_path.h"
 
 namespace penumbra::image {
 
@@ -22,18 +21,10 @@ std::vector<fs::path>& more_folders() {
   return folders;
 }
 
-// Without /proc, as in some change roots, the path that the program was started with.
-fs::path program_path(std::error_code& fault) {
-  const fs::path program = fs::read_symlink("/proc/self/exe", fault);
-  const unsigned long started = fault ? getauxval(AT_EXECFN) : 0;
-  // The kernel gives addresses as numbers. NOLINTNEXTLINE(performance-no-int-to-ptr)
-  return started == 0 ? program : fs::canonical(reinterpret_cast<const char*>(started), fault);
-}
-
 // Next to the program, as it is built; above a test's folder; or where it is installed.
 std::string module_path() {
   std::error_code fault;
-  const fs::path folder = program_path(fault).parent_path();
+  const fs::path folder = io::program_path(fault).parent_path();
   if (fault)
     fail("JPEG and EXR need {}, which lies beside the program; where that is can't be told: {}", module_file,
          fault.message());

@@ -9,6 +9,7 @@
 #include "cli/signals.h"
 #include "cli/text.h"
 #include "io/output_file.h"
+#include "io/program_path.h"
 #include "reproduce/command.h"
 #include "reproduce/figures.h"
 #include "reproduce/report.h"
@@ -39,7 +40,7 @@ std::string shipped_scene(const char* name) {
   const fs::path file = fs::path("scenes") / name;
   std::error_code error;
   if (fs::exists(file, error)) return file.string();
-  for (fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path(); folder.has_relative_path();
+  for (fs::path folder = io::program_path(error).parent_path(); folder.has_relative_path();
        folder = folder.parent_path()) {
     for (const fs::path& path : {folder / file, folder / "share" / "penumbra" / file}) {
       if (fs::exists(path, error)) return path.string();

@@ -12,6 +12,7 @@
 #include "cli/text.h"
 #include "io/output_file.h"
 #include "io/presets.h"
+#include "io/program_path.h"
 #include "session/render_session.h"
 #include "session/shader_reload.h"
 #include "session/techniques.h"
@@ -51,7 +52,7 @@ Window::Options window_options(const ViewOptions& options, const Settings& setti
 // The scene that comes with the program, installed or in the source tree; empty if there is none.
 std::string own_scene() {
   std::error_code fault;
-  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", fault).parent_path();
+  const std::filesystem::path folder = io::program_path(fault).parent_path();
   for (const char* place : {"../share/penumbra/scenes/courtyard.glb", "../../scenes/courtyard.glb"}) {
     if (std::filesystem::exists(folder / place, fault)) return (folder / place).lexically_normal().string();
   }
