@@ -21,6 +21,11 @@ done
 # A software rasteriser keeps its textures in the memory of the process. The program itself asks for huge pages, which takes
 # up to half of a short run's time away; this asks for them for the other programs that the tests draw with.
 export GLIBC_TUNABLES=${GLIBC_TUNABLES-glibc.malloc.hugetlb=1}
+# The tests compile more shaders than Mesa keeps by default, and it would drop other programs' shaders for them: a folder of
+# their own.
+shaders=${XDG_CACHE_HOME:-~/.cache}/penumbra
+mkdir -p "$shaders"
+export MESA_SHADER_CACHE_DIR=${MESA_SHADER_CACHE_DIR:-$shaders} MESA_SHADER_CACHE_MAX_SIZE=${MESA_SHADER_CACHE_MAX_SIZE:-4G}
 [[ -z ${PENUMBRA_ASSETS:-} ]] || PENUMBRA_ASSETS=$(cd "$PENUMBRA_ASSETS" && pwd)
 
 # suite PRESET CTEST-ARGUMENTS...: results stay in the build folder for the count at the end.

@@ -165,15 +165,22 @@ class TestCase(unittest.TestCase):
 
 
 class _Recorder(unittest.TextTestResult):
-    """Keeps each case's outcome for the report that ./test.sh counts."""
+    """Keeps each case's outcome and time for the report that ./test.sh counts."""
 
     def __init__(self, *arguments, **options):
         super().__init__(*arguments, **options)
         self.outcomes = {}
+        self.starts = {}
+        self.seconds = {}
 
     def startTest(self, test):
         super().startTest(test)
         self.outcomes[test.id()] = None
+        self.starts[test.id()] = time.monotonic()
+
+    def stopTest(self, test):
+        super().stopTest(test)
+        self.seconds[test.id()] = time.monotonic() - self.starts[test.id()]
 
     def addSkip(self, test, reason):
         super().addSkip(test, reason)
@@ -201,7 +208,7 @@ def main():
     if report:
         suite = ElementTree.Element("testsuite")
         for name, outcome in result.outcomes.items():
-            case = ElementTree.SubElement(suite, "testcase", name=name)
+            case = ElementTree.SubElement(suite, "testcase", name=name, time=f"{result.seconds[name]:.3f}")
             if outcome:
                 ElementTree.SubElement(case, outcome)
         ElementTree.ElementTree(suite).write(report)
