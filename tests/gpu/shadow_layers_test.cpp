@@ -23,16 +23,21 @@ constexpr float high = 4, low = 1, low_edge = -0.05f;
 constexpr float angle = 8;
 
 // `height`: of the picture. Below that of a tile, all pixels are computed.
-TriangleScene half_planes(bool both, int height) {
+TriangleScene ground_from_above(int height) {
   TriangleScene scene;
   scene.add_quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0});
-  if (both) scene.add_quad({-12, low, -12}, {0, 0, 24}, {12 + low_edge, 0, 0});
-  scene.add_quad({-12, high, -12}, {0, 0, 24}, {12, 0, 0});
   scene.receivers = shadow::Box{{-1, 0, -1}, {1, 0, 1}};
   scene.width = 128;
   scene.height = height;
   scene.view = glm::lookAt(glm::vec3(0, 0.5f, 0), glm::vec3(0), glm::vec3(0, 0, -1));
   scene.projection = orthographic(0.5f, 0.5f * static_cast<float>(height) / 128, 0.01f, 1);
+  return scene;
+}
+
+TriangleScene half_planes(bool both, int height) {
+  TriangleScene scene = ground_from_above(height);
+  if (both) scene.add_quad({-12, low, -12}, {0, 0, 24}, {12 + low_edge, 0, 0});
+  scene.add_quad({-12, high, -12}, {0, 0, 24}, {12, 0, 0});
   return scene;
 }
 
@@ -87,6 +92,27 @@ TEST_F(ShadowLayers, ACasterBelowAnotherKeepsItsShadow) {
 
 TEST_F(ShadowLayers, TilesBelowWhichCastersOverlapReadBoth) {
   EXPECT_LT(worst_error(*renderer_, 2, /*both=*/true, 16), 0.02);
+}
+
+// A roof, a lower one beside it, and the wall between them, along which the light looks, so that no layer shows it: all
+// light that passes the high roof's edge meets the wall.
+TEST_F(ShadowLayers, NoLightPassesAWallBetweenAHighAndALowRoof) {
+  constexpr float edge = 0.1f;
+  for (const int height : {4, 16}) {
+    TriangleScene scene = ground_from_above(height);
+    scene.add_quad({-12, high, -12}, {0, 0, 24}, {12 + edge, 0, 0});
+    scene.add_quad({edge, low, -12}, {0, 0, 24}, {0, high - low, 0});
+    scene.add_quad({edge, low, -12}, {0, 0, 24}, {12 - edge, 0, 0});
+    ParamSet params = renderer_->params();
+    params.set("technique", std::string("slices"));
+    params.set("sun.angle", angle);
+    params.set("cascades.size", 1024);
+    for (const int layers : {1, 2}) {
+      SCOPED_TRACE(fmt::format("{} layers, {} rows", layers, height));
+      params.set("maps.layers", layers);
+      EXPECT_LT(std::ranges::max(renderer_->render(scene, params).visibilities()), 0.01f);
+    }
+  }
 }
 
 // All tiles are then those of one layer: others have other samples.

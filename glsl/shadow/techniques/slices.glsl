@@ -98,24 +98,28 @@ struct Blocker {
 
 const Blocker no_blocker = Blocker(beyond_rim, 0.0, 0.0);
 
-// Whether the material of a higher blocker is taken to go on down to the next one on the line. If the map has one
-// layer, it always is, since what lies below the higher one can't be seen. With a second layer that is known, also
-// where nothing lies below: a surface ends where it falls this many times more steeply than the light's cone.
-bool goes_on(Blocker before, float height, float at, Receiver receiver, Light light) {
+// Whether the material of a blocker is taken to go on to the next one on the line. It always is where the second layer
+// is not read, since what lies below a higher blocker can't be seen then. Else `below` is the second layer's blocker at
+// the sample before: where it shows that the lower surface goes on there, below a higher one that ends this many times
+// more steeply than the light's cone, the two are separate. A wall that joins them, along which the light looks, has
+// no such surface below it.
+bool goes_on(Blocker before, Blocker below, float height, float at, Receiver receiver, Light light) {
+  if (!READS_SECOND_LAYER) return true;
   const float steepest = 4.0;
   float most = steepest * cone_slope(receiver, light) * (at - before.at);
-  return maps_layers == 1 || abs(height - before.height) <= most;
+  bool lower_goes_on = below.hidden_to < beyond_rim && below.height >= height - most;
+  return before.height - height <= most || !lower_goes_on;
 }
 
 // Adds the rays that a texel of that depth hides to `rings`, if it is nearer to the light than `blocking`; `before`:
-// the sample before it on the line.
+// the sample before it on the line, and `below`: that of the layer below it.
 Blocker add_texel(inout Found found, inout uint rings, Receiver receiver, float depth, float blocking, float bias,
-                  Stretch stretch, Blocker before, float dither, Light light) {
+                  Stretch stretch, Blocker before, Blocker below, float dither, Light light) {
   if (depth >= blocking) return no_blocker;
   float height = receiver.position.z - depth;
   float per_metre = 1.0 / rim_radius(receiver, height, light);
   float low = stretch.begin * per_metre;
-  if (goes_on(before, height, stretch.at, receiver, light)) low = min(low, before.hidden_to);
+  if (goes_on(before, below, height, stretch.at, receiver, light)) low = min(low, before.hidden_to);
   float high = stretch.last ? beyond_rim : stretch.end * per_metre;
   uint hides = rings_between(low, high, dither);
   rings |= hides;
@@ -167,11 +171,12 @@ void walk(inout Found found, Receiver receiver, float share, int index, int samp
     vec2 offset = texel_offset(receiver, cell, light);
     float blocking = blocking_depths_at(receiver, Offsets(vec4(offset.x), vec4(offset.y)), bias).x;
     Stretch stretch = Stretch(begin, at, end, i + 1 == samples);
-    before = add_texel(found, rings, receiver, depth_at(cell, light), blocking, bias, stretch, before, dither, light);
+    before = add_texel(found, rings, receiver, depth_at(cell, light), blocking, bias, stretch, before, second_before,
+                       dither, light);
 #if READS_SECOND_LAYER
     uint behind = 0u;
     second_before = add_texel(found, behind, receiver, depth_behind(cell, light), blocking, bias, stretch,
-                              second_before, dither, light);
+                              second_before, no_blocker, dither, light);
     found.overlaps = found.overlaps || behind != 0u && second_before.height < least_share_of_height * before.height;
     rings |= behind;
 #endif
