@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace penumbra::viewer {
 
@@ -61,6 +62,20 @@ void finish_vector(WidgetMap& widgets, const std::string& name, const glm::vec3&
                        with_decimals(value.z, decimals)));
 }
 
+bool is_finite(float value) { return std::isfinite(value); }
+bool is_finite(const glm::vec3& value) { return is_finite(value.x) && is_finite(value.y) && is_finite(value.z); }
+
+// What `edit` returns, whether the user changed the value. Where that gives no finite number the value stays as it was:
+// Dear ImGui takes + * / before what is typed as operators on the old value, and no limit stops a NaN.
+template <typename Value, typename Edit>
+bool edit_finite(Value& value, const Edit& edit) {
+  const Value before = value;
+  const bool changed = edit();
+  if (is_finite(value)) return changed;
+  value = before;
+  return false;
+}
+
 // The slider that `draw` draws, with its value at its right, where the grab never covers it: Dear ImGui's own is in the
 // middle of the slider.
 template <typename Value, typename Draw>
@@ -98,7 +113,9 @@ void mark_field(WidgetMap& widgets, std::string_view name, const std::string& te
 bool slider(WidgetMap& widgets, const std::string& name, float& value, float least, float most, const char* format,
             ImGuiSliderFlags flags) {
   return slider_with_value(widgets, name, value, least, most, format, [&](const char* id) {
-    return ImGui::SliderFloat(id, &value, least, most, format, flags | ImGuiSliderFlags_AlwaysClamp);
+    return edit_finite(value, [&] {
+      return ImGui::SliderFloat(id, &value, least, most, format, flags | ImGuiSliderFlags_AlwaysClamp);
+    });
   });
 }
 
@@ -110,13 +127,15 @@ bool slider(WidgetMap& widgets, const std::string& name, int& value, int least, 
 }
 
 bool drag(WidgetMap& widgets, const std::string& name, float& value, float speed, const char* format) {
-  const bool changed = ImGui::DragFloat(id_of(name).c_str(), &value, speed, 0, 0, format);
+  const bool changed =
+      edit_finite(value, [&] { return ImGui::DragFloat(id_of(name).c_str(), &value, speed, 0, 0, format); });
   mark_field(widgets, name, fmt::sprintf(format, value), item_width());
   return changed;
 }
 
 bool color_field(WidgetMap& widgets, const std::string& name, glm::vec3& color) {
-  const bool changed = ImGui::ColorEdit3(id_of(name).c_str(), &color.x, ImGuiColorEditFlags_Float);
+  const bool changed =
+      edit_finite(color, [&] { return ImGui::ColorEdit3(id_of(name).c_str(), &color.x, ImGuiColorEditFlags_Float); });
   const float numbers = item_width() - ImGui::GetFrameHeight() - ImGui::GetStyle().ItemInnerSpacing.x;
   mark_field(widgets, name, longest_text(color, 3), part_width(numbers, vector_parts));
   return changed;
@@ -131,7 +150,8 @@ bool type_vector(WidgetMap& widgets, const std::string& name, glm::vec3& value, 
   const float room = typed_room(part_width(ImGui::CalcItemWidth(), vector_parts));
   const int shown = fitting_decimals(value, decimals, room);
   const std::string format = fmt::format("%.{}f", shown);
-  const bool changed = ImGui::InputFloat3(id_of(name).c_str(), &value.x, format.c_str());
+  const bool changed =
+      edit_finite(value, [&] { return ImGui::InputFloat3(id_of(name).c_str(), &value.x, format.c_str()); });
   finish_vector(widgets, name, value, shown, decimals);
   return changed;
 }
@@ -142,8 +162,10 @@ bool drag_vector(WidgetMap& widgets, const std::string& name, glm::vec3& value, 
   const std::string format = fmt::format("%.{}f", shown);
   // Dragging rounds to what is shown, unless that leaves out decimals: a lamp 1,000 m away moves by less than a metre.
   const ImGuiSliderFlags rounding = shown == decimals ? 0 : ImGuiSliderFlags_NoRoundToFormat;
-  const bool changed = ImGui::DragFloat3(id_of(name).c_str(), &value.x, 0.01f, -limit, limit, format.c_str(),
-                                         rounding | ImGuiSliderFlags_AlwaysClamp);
+  const bool changed = edit_finite(value, [&] {
+    return ImGui::DragFloat3(id_of(name).c_str(), &value.x, 0.01f, -limit, limit, format.c_str(),
+                             rounding | ImGuiSliderFlags_AlwaysClamp);
+  });
   finish_vector(widgets, name, value, shown, decimals);
   return changed;
 }

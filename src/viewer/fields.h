@@ -18,7 +18,7 @@ namespace penumbra::viewer {
 void mark_field(WidgetMap& widgets, std::string_view name, const std::string& text, float room);
 
 // As ImGui::SliderFloat() and so on, but that a slider's value stands beside it, as "NAME value" of the layout. They
-// return whether the user changed the value.
+// return whether the user changed the value. What is typed and gives no finite number changes nothing.
 bool slider(WidgetMap& widgets, const std::string& name, float& value, float least, float most, const char* format,
             ImGuiSliderFlags flags = 0);
 bool slider(WidgetMap& widgets, const std::string& name, int& value, int least, int most, const char* format = "%d",

@@ -23,6 +23,9 @@ void files_panel(const Panel& panel) {
   tooltip("As layers of an EXR, or as a PNG each");
   if (panel.status.writing) {
     progress(panel.widgets, "writing", static_cast<float>(*panel.status.writing), "writing");
+    if (ImGui::Button("Stop")) state.requests.stop_writing = true;
+    panel.widgets.mark("stop writing");
+    tooltip("Ends the writing; files that are finished stay");
   } else {
     if (ImGui::Button("Write picture")) state.requests.write_picture = true;
     panel.widgets.mark("write picture");

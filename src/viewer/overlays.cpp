@@ -340,6 +340,11 @@ void tell(UiState& state, const std::string& text, double now, std::string_view 
   add(state, {without_middle(text), false, now + 6});
 }
 
+void withdraw(UiState& state, const std::string& text) {
+  const std::string told = without_middle(text);
+  std::erase_if(state.messages, [&](const Message& message) { return message.text == told; });
+}
+
 void tell_error(UiState& state, const std::string& text, double now) {
   add(state, {without_middle(text), true, now + 20});
 }

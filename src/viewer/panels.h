@@ -65,5 +65,7 @@ void status_bar(const Panel& panel);
 // `replaced`, if that is not empty.
 void tell(UiState& state, const std::string& text, double now, std::string_view replaced = {});
 void tell_error(UiState& state, const std::string& text, double now);
+// Takes away a message that no longer holds.
+void withdraw(UiState& state, const std::string& text);
 
 }  // namespace penumbra::viewer

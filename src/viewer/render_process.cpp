@@ -75,10 +75,17 @@ void RenderProcess::start(const std::vector<std::string>& arguments, std::vector
     fail("penumbra render: {}", std::strerror(fault));
   }
   output_ = ends[0];
+  stopped_ = false;
   text_.clear();
   files_ = std::move(files);
   written_ = 0;
   started_ = std::filesystem::file_time_type::clock::now();
+}
+
+void RenderProcess::stop() {
+  if (!runs()) return;
+  kill(process_, SIGTERM);
+  stopped_ = true;
 }
 
 double RenderProcess::progress() {
@@ -107,9 +114,11 @@ std::optional<RenderProcess::Result> RenderProcess::finished() {
   read_output();
   close(std::exchange(output_, -1));
   process_ = -1;
+  const bool good = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  if (stopped_ && !good) return Result{.good = true, .text = "stopped writing"};
   if (WIFSIGNALED(status))
     return Result{.good = false, .text = fmt::format("penumbra render: signal {}", WTERMSIG(status))};
-  return Result{.good = WEXITSTATUS(status) == 0, .text = last_line(text_)};
+  return Result{.good = good, .text = last_line(text_)};
 }
 
 }  // namespace penumbra::viewer

@@ -20,6 +20,8 @@ class RenderProcess {
   // be started.
   void start(const std::vector<std::string>& arguments, std::vector<std::filesystem::path> files);
   bool runs() const { return process_ > 0; }
+  // Asks it to end; finished() says so once it has.
+  void stop();
   // The share of the files that are written.
   double progress();
 
@@ -34,6 +36,7 @@ class RenderProcess {
   void read_output();
 
   int process_ = -1, output_ = -1;
+  bool stopped_ = false;
   std::string text_;
   std::vector<std::filesystem::path> files_;
   std::size_t written_ = 0;  // of them, in order

@@ -45,6 +45,7 @@ void Viewer::do_requests() {
     if (wanted.save_preset) save_preset(*wanted.save_preset, /* overwrite= */ false);
     if (wanted.overwrite_preset) save_preset(*wanted.overwrite_preset, /* overwrite= */ true);
     if ((wanted.write_picture || wanted.write_sequence) && scene_ != nullptr) write_picture(wanted.write_sequence);
+    if (wanted.stop_writing) writer_.stop();
     if (wanted.frame_casters && scene_ != nullptr) frame_casters();
     if (wanted.undo || wanted.redo) go_back(wanted.redo);
     if (wanted.copy_command && scene_ != nullptr) copy_command();

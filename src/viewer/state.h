@@ -39,6 +39,7 @@ struct Requests {
   std::optional<std::string> open_preset, save_preset;
   std::optional<std::string> overwrite_preset;         // as save_preset, and the user agrees to lose what is there
   bool write_picture = false, write_sequence = false;  // to the state's file
+  bool stop_writing = false;
   bool frame_casters = false;
   bool copy_command = false, copy_camera = false;
   bool undo = false, redo = false;

@@ -213,7 +213,7 @@ std::optional<SceneLoader::Loaded> Viewer::finished_scene() {
     if (loaded || !loader_.file().empty()) status_.load_error.clear();
     return loaded;
   } catch (const std::exception& error) {
-    status_.load_error = error.what();
+    status_.load_error = failed_load_ = error.what();
     throw;
   }
 }
@@ -225,6 +225,7 @@ void Viewer::take_loaded() {
     std::optional<SceneLoader::Loaded> loaded = finished_scene();
     status_.loading = loader_.file().empty() ? "" : std::filesystem::path(loader_.file()).filename().string();
     if (!loaded) return;
+    withdraw(state_, std::exchange(failed_load_, {}));
     cli::SceneOptions& options = state_.document.options;
     const bool is_first = scene_ == nullptr, is_other = options.scene != loaded->options.scene;
     if (is_other && changed_while_loading()) {

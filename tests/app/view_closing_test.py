@@ -191,6 +191,13 @@ class Closing(WindowTest):
                     self.assertTrue(viewer.has("writing"))
             self.assertEqual(viewer.exit_code(), 0)
 
+    def test_pictures_that_are_being_written_can_be_stopped(self):
+        with self.view("mine.glb", "--technique", "brute_force", "--set", "sun.angle=20") as viewer:
+            viewer.open_tab("Files", "write sequence")
+            viewer.click("write sequence", lambda: viewer.has("writing"), "pictures that are being written")
+            viewer.click("stop writing", lambda: viewer.has("write sequence"), "the end of writing")
+            viewer.wait_for(lambda: viewer.has("messages"), "what became of it")
+
     def test_a_window_that_is_minimised_comes_back_to_ask(self):
         with self.view("mine.glb") as viewer:
             self.drag(viewer, RIGHT, "--sun")

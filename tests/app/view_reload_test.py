@@ -197,6 +197,7 @@ class Scene(WindowTest):
             self.assertEqual(viewer.rest(), steps)
             file.write_bytes(KNIFE_EDGE.read_bytes())
             self.assertEqual(viewer.changed(steps), wanted)
+            self.assertFalse(viewer.has("messages"), "why the file could not be read before")
 
 
 if __name__ == "__main__":

@@ -58,6 +58,20 @@ class Undo(WindowTest):
                 self.tap(viewer, keys)
                 self.assertEqual(self.command(viewer), state)
 
+    def test_a_number_that_is_not_finite_changes_nothing(self):
+        """Dear ImGui multiplies the old value by what follows a "*"."""
+        with self.view(STEPS, *self.VIEW) as viewer:
+            viewer.open_tab("Scene", "azimuth")
+            first = self.command(viewer)
+            viewer.fill_in("azimuth", "0", lambda: self.command(viewer) != first, "an azimuth of 0")
+            zero = self.command(viewer)
+            self.assertIn("--sun=0,", " ".join(zero))
+            viewer.fill_in("azimuth", "*1e400", lambda: True, "nothing")
+            viewer.follow()
+            self.assertEqual(self.command(viewer), zero)
+            self.tap(viewer, "ctrl+z")
+            self.assertEqual(self.command(viewer), first)
+
     def test_the_menu_undoes_and_goes_back_to_the_scenes_camera(self):
         def take(item):
             viewer.click("menu Edit", lambda: viewer.has(item), "the menu")
