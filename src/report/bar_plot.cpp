@@ -53,7 +53,7 @@ std::string value_text(const Axis& axis, double value) {
 
 std::string bar_svg(const BarPlot& plot, const Bar& bar, const Scale& x, double y) {
   std::string svg = fmt::format("<text class='label' x='{:.1f}' y='{:.1f}' text-anchor='end'>{}</text>", x.at(0) - gap,
-                                y + bar_height / 2 + 4.5, escape(bar.label));
+                                y + bar_height / 2 + 4.5, label_text(bar.label, most_label));
   double from = 0;
   for (std::size_t i = 0; i < bar.values.size(); ++i) {
     if (bar.values[i] <= 0) continue;

@@ -11,8 +11,10 @@ namespace penumbra::report {
 namespace {
 
 constexpr double dot_radius = 3.2;
-constexpr double name_gap = 10;
+constexpr double name_gap = 10, sample_length = 24;
+constexpr double name_step = 1.25 * font_size, most_name = 260;
 constexpr std::size_t colours = 8;  // .line-0 to .line-7 in page.css
+constexpr std::size_t dashes = 4;   // .dash-1 to .dash-3, and lines without
 
 // The label of a line, at the height of the line's end.
 struct Name {
@@ -22,14 +24,26 @@ struct Name {
 
 // Moves overlapping labels apart by as little as possible, and keeps them within the plot.
 void part(std::vector<Name>& names, const Box& area) {
-  constexpr double step = 1.25 * font_size;
   std::ranges::stable_sort(names, {}, &Name::y);
-  for (std::size_t i = 1; i < names.size(); ++i) names[i].y = std::max(names[i].y, names[i - 1].y + step);
+  for (std::size_t i = 1; i < names.size(); ++i) names[i].y = std::max(names[i].y, names[i - 1].y + name_step);
   double limit = area.bottom;
-  for (std::size_t i = names.size(); i-- > 0; limit -= step) names[i].y = std::min(names[i].y, limit);
+  for (std::size_t i = names.size(); i-- > 0; limit -= name_step) names[i].y = std::min(names[i].y, limit);
 }
 
-std::string line_class(std::size_t index) { return fmt::format("line-{}", index % colours); }
+// Lines beyond the number of colours are dashed.
+std::string line_class(std::size_t index) {
+  return fmt::format("line-{} dash-{}", index % colours, index / colours % dashes);
+}
+
+// A piece of the line, and its name.
+std::string name_svg(const LinePlot& plot, const Name& name, double x) {
+  const double text = x + sample_length + name_gap;
+  return fmt::format(
+      "<g class='{0}'><path d='M{1:.1f} {2:.1f}H{3:.1f}'/></g>"
+      "<text class='label name {0}' x='{4:.1f}' y='{5:.1f}'>{6}</text>",
+      line_class(name.line), x, name.y, x + sample_length, text, name.y + 4.5,
+      label_text(plot.lines[name.line].label, most_name));
+}
 
 std::string dot_svg(const LinePlot& plot, const Line& line, const Point& point, double x, double y) {
   const auto value = [](const Axis& axis, double v) {
@@ -72,7 +86,8 @@ Html to_html(const LinePlot& plot) {
       ys.push_back(point.y);
     }
   }
-  const PlotFrame frame(plot.title, plot.x, plot.y, xs, ys, std::min(widest, 260.0) + 2 * name_gap);
+  const PlotFrame frame(plot.title, plot.x, plot.y, xs, ys, std::min(widest, most_name) + sample_length + 3 * name_gap,
+                        name_step * static_cast<double>(plot.lines.size()));
 
   std::string drawn;
   std::vector<Name> names;
@@ -84,9 +99,7 @@ Html to_html(const LinePlot& plot) {
     names.push_back(name);
   }
   part(names, frame.area());
-  for (const Name& name : names)
-    drawn += fmt::format("<text class='label name {}' x='{:.1f}' y='{:.1f}'>{}</text>", line_class(name.line),
-                         frame.area().right + name_gap, name.y + 4.5, escape(plot.lines[name.line].label));
+  for (const Name& name : names) drawn += name_svg(plot, name, frame.area().right + name_gap);
   return Html(frame.svg(drawn));
 }
 

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "report/axis.h"
 
@@ -22,13 +23,15 @@ struct Box {
 constexpr double font_size = 13;
 // The estimated width of a text: the SVG is laid out before its font is known.
 double text_width(std::string_view text);
+// What an SVG's <text> holds for a label: one that has no room is without its middle, and its tooltip has all of it.
+std::string label_text(std::string_view label, double room);
 
 // What all plots share: the size of the drawing, and axes with grid and labels.
 class PlotFrame {
  public:
-  // `room` is the width that stays free to the right of the axes.
+  // `room` is the width that stays free to the right of the axes, `least_area` the least height between the axes' ends.
   PlotFrame(std::string title, const Axis& x, const Axis& y, std::span<const double> xs, std::span<const double> ys,
-            double room);
+            double room, double least_area = 0);
 
   const Scale& x() const { return x_; }
   const Scale& y() const { return y_; }

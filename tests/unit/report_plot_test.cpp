@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <regex>
+#include <set>
 
 #include "report/plot_frame.h"
 
@@ -112,6 +113,49 @@ TEST(ReportPlot, NamesAtTheEndsOfLinesDoNotOverlap) {
   const std::vector<Box> boxes = label_boxes(to_html(plot).str());
   EXPECT_EQ(boxes.size(), 9u);
   expect_apart(boxes);
+}
+
+TEST(ReportPlot, FortyLinesCanBeToldApartAndHaveTheirNamesWithinThePlot) {
+  LinePlot plot{.title = "t", .x = {"x"}, .y = {"y"}, .lines = {}};
+  for (int i = 0; i < 40; ++i) plot.lines.push_back({.label = "line " + std::to_string(i), .points = {{0, 0}, {1, 1}}});
+  const std::string svg = to_html(plot).str();
+  const std::vector<Box> boxes = label_boxes(svg);
+  EXPECT_EQ(boxes.size(), 40u);
+  expect_apart(boxes);
+  std::smatch size;
+  ASSERT_TRUE(std::regex_search(svg, size, std::regex("viewBox='0 0 ([0-9.]+) ([0-9.]+)'")));
+  const Box all{0, 0, std::stod(size[1]), std::stod(size[2])};
+  for (const Box& box : boxes) EXPECT_TRUE(all.holds(box)) << box.left << ", " << box.top;
+  static const std::regex name("<text class='label name ([^']*)'");
+  std::set<std::string> looks;
+  for (std::sregex_iterator i(svg.begin(), svg.end(), name), end; i != end; ++i) looks.insert((*i)[1]);
+  EXPECT_EQ(looks.size(), 32u) << "8 colours with 4 patterns each";
+}
+
+TEST(ReportPlot, ALabelWithoutRoomLosesItsMiddleAndATooltipHasAllOfIt) {
+  EXPECT_EQ(label_text("a<b", 100), "a&lt;b");
+  const std::string label = "begin_" + std::string(60, 'x') + "_end";
+  const std::string text = label_text(label, text_width("begin_..._end"));
+  EXPECT_EQ(text, "<title>" + label + "</title>begin_\u2026xx_end");
+  EXPECT_EQ(label_text("\u00e4\u00f6\u00fc\u00df\u00e4", text_width("123")),
+            "<title>\u00e4\u00f6\u00fc\u00df\u00e4</title>\u00e4\u2026\u00e4")
+      << "whole characters";
+}
+
+TEST(ReportPlot, LongNamesOfBarsAndLinesStayWithinThePlot) {
+  const std::string name(80, 'i');
+  const LinePlot lines{.title = "t", .x = {"x"}, .y = {"y"}, .lines = {{.label = name, .points = {{0, 0}, {1, 1}}}}};
+  const BarPlot bars{.title = "t", .x = {.label = "x"}, .parts = {"a"}, .bars = {{.label = name, .values = {1}}}};
+  static const std::regex label(
+      "<text class='label[^']*' x='([-0-9.]+)' y='[-0-9.]+'[^>]*><title>i*</title>([^<]*)</text>");
+  for (const std::string& svg : {to_html(lines).str(), to_html(bars).str()}) {
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(svg, found, label)) << svg;
+    const double x = std::stod(found[1]), width = text_width(found[2].str());
+    const bool ends_there = found[0].str().find("text-anchor='end'") != std::string::npos;
+    EXPECT_GE(ends_there ? x - width : x, 0);
+    EXPECT_LE(ends_there ? x : x + width, 760);
+  }
 }
 
 TEST(ReportPlot, WhatALogAxisCannotShowIsNamedBelow) {
