@@ -38,7 +38,7 @@ Moments depth_moments(vec3 position, vec2 half_width, Light light) {
   uvec4 below[4];
   for (int x = 0; x < 4; ++x) below[x] = sums_before(ivec2(lines[x].x, lines[0].y), light);
   for (int y = 0; y < 3; ++y) {
-    uvec4 left;
+    uvec4 left = uvec4(0u);
     for (int x = 0; x < 4; ++x) {
       uvec4 corner = sums_before(ivec2(lines[x].x, lines[y + 1].y), light);
       uvec4 column = sums_less(corner, below[x]);  // all blocks of the band before the corner

@@ -9,7 +9,8 @@
 namespace penumbra {
 
 // Bad input, a bad shader or a missing device: something that the user can fix. what() is one line that
-// names the thing and the cause. A bug in Penumbra itself is an assertion, never an Error.
+// names the thing and the cause; only what a shader compiler says follows on lines of its own. A bug in Penumbra itself
+// is an assertion, never an Error.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

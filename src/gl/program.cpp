@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <glm/gtc/type_ptr.hpp>
+#include <sstream>
+#include <string>
 
 #include "../core/error.h"
 #include "../core/log.h"
@@ -44,7 +46,9 @@ Handle<delete_shader> compile(const ProgramDesc& desc, const Stage& stage, const
   glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
   const std::string log = translate_log(read_log(shader.id(), glGetShaderiv, glGetShaderInfoLog), source);
   if (compiled == GL_FALSE) fail("program '{}': the {} shader does not compile\n{}", desc.name, stage.name, log);
-  if (!log.empty()) penumbra::log(LogLevel::debug, fmt::format("program '{}': {}", desc.name, log));
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);)
+    penumbra::log(LogLevel::debug, fmt::format("program '{}': {}", desc.name, line));
   return shader;
 }
 

@@ -84,6 +84,7 @@ class Loader {
     source_.shown_names.push_back(files_.shown_name(name));
     std::string_view rest = *text;
     if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
+    if (rest.empty()) append_line("", 1, index);  // so that messages about it name it
     for (int number = 1; !rest.empty(); ++number) {
       const std::size_t end = std::min(rest.find('\n'), rest.size());
       append_line(rest.substr(0, end), number, index);

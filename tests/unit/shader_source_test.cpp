@@ -196,6 +196,14 @@ TEST(TranslateLog, EveryDriversFormBecomesFileAndLine) {
             "glsl/shadow/a.frag:13: error: 'x' : undeclared identifier\nglsl/lib/b.glsl:1: warning: odd");
 }
 
+TEST(TranslateLog, AnEmptyFileIsNamed) {
+  gl::ShaderFiles files;
+  files.put("empty.frag", "");
+  const gl::ShaderSource source = gl::load_shader_source(files, "empty.frag", {});
+  EXPECT_EQ(gl::translate_log("0:2(1): error: syntax error, unexpected end of file", source),
+            "glsl/empty.frag:1: error: syntax error, unexpected end of file");
+}
+
 TEST(TranslateLog, OtherLinesStayAndEmptyOnesGo) {
   EXPECT_EQ(translate_log("\n\nlinking failed\n  \n0:1(1): error: version\n0:7(1): error: from nowhere\n", two_files),
             "linking failed\n0:1(1): error: version\n0:7(1): error: from nowhere");
