@@ -204,8 +204,6 @@ void Texture::upload(GLenum format, GLenum type, std::span<const std::byte> pixe
   }
 }
 
-void Texture::generate_mipmaps() const { glGenerateTextureMipmap(id()); }
-
 void Texture::bind(GLuint unit) const { glBindTextureUnit(unit, id()); }
 
 void Texture::bind_image(GLuint unit, GLenum access, int level) const {

@@ -42,7 +42,6 @@ class Texture {
   // Tightly packed pixels of one level and layer, given in `format`/`type` (GL_RGBA, GL_UNSIGNED_BYTE…).
   // `pixels` must be exactly the level's size, else it is a bug. Throws Error for a pair that Penumbra does not use.
   void upload(GLenum format, GLenum type, std::span<const std::byte> pixels, int level = 0, int layer = 0) const;
-  void generate_mipmaps() const;
   void bind(GLuint unit) const;
   void bind_image(GLuint unit, GLenum access, int level = 0) const;
 

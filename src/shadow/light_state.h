@@ -52,8 +52,7 @@ struct LightState {
   const gl::Buffer* params_block = nullptr;
   const gl::Buffer* shadow_block = nullptr;
 
-  gl::Texture receiver_depth;  // refers to the caller's depth texture
-  gl::Texture shadow_map;      // refers to the map that this frame drew or the caller supplied
+  gl::Texture shadow_map;  // refers to the map that this frame drew or the caller supplied
 
   LightSource source;
   LightShape shape;

@@ -67,15 +67,6 @@ std::string PassContext::full_name(std::string_view name) const {
   return full;
 }
 
-const gl::Texture& PassContext::receiver_depth() const {
-  const TextureView& depth = work_.inputs.depth;
-  gl::Texture& known = work_.state.receiver_depth;
-  if (known.id() != depth.id || known.width() != depth.width || known.height() != depth.height) {
-    known = gl::Texture::wrap(depth.id, gl::describe("soft shadows: depth", depth.id));
-  }
-  return known;
-}
-
 const DepthRounding& PassContext::depth_rounding() const { return work_.view.checked.depth; }
 
 const gl::Texture& PassContext::shadow_map() const {

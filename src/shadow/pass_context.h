@@ -63,11 +63,6 @@ class PassContext {
   // its last texture. It may leave these layers of its texture as they are.
   LayerSet unchanged_layers() const;
 
-  // The caller's depth texture, to attach it to a pass: for a stencil test, if its format has stencil bits. OpenGL is
-  // asked for its format only when the texture is another one than in the last frame. Where the caller's is a layer of
-  // an array or has several samples, it is a copy of it in R32F, which can't be attached as depth.
-  const gl::Texture& receiver_depth() const;
-
   // The most by which the format of the caller's depth texture changes depths; not that of a copy.
   const DepthRounding& depth_rounding() const;
   // The light's shadow map, drawn or supplied by the caller, for products that are another way to read it.

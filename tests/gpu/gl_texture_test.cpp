@@ -98,13 +98,6 @@ TEST_F(GlTexture, BytesCountLevelsAndLayers) {
   EXPECT_EQ(gl::Texture().bytes(), 0u);
 }
 
-TEST_F(GlTexture, MipmapsAverage) {
-  const gl::Texture texture("t", {.format = GL_R32F, .width = 2, .height = 2, .levels = 2});
-  texture.upload(GL_RED, GL_FLOAT, std::as_bytes(std::span<const float>(ramp(4, 2.0f))));
-  texture.generate_mipmaps();
-  EXPECT_FLOAT_EQ(gl::read_floats(texture, 1, 1).front(), 3.0f);
-}
-
 TEST_F(GlTexture, OneTooLargeForTheDeviceIsNamedWithTheLimit) {
   const std::string message = message_of([] { gl::Texture("shadow map", {.width = 1 << 20}); });
   EXPECT_NE(message.find("texture 'shadow map': 1048576 x 1 is over"), std::string::npos) << message;

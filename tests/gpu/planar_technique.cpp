@@ -103,9 +103,8 @@ struct Projection {
 };
 
 gl::TextureDesc of_mask(const shadow::PassContext& context, GLenum format) {
-  const gl::Texture& depth = context.receiver_depth();
-  EXPECT_EQ(depth.desc().format, GLenum{GL_DEPTH_COMPONENT32F});
-  return {.format = format, .width = depth.width(), .height = depth.height()};
+  const shadow::TextureView& depth = context.inputs().depth;
+  return {.format = format, .width = depth.width, .height = depth.height};
 }
 
 // The stencil is 1 where casters cover the ground. The library has targets and buffers with the names that are used
