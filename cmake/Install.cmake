@@ -32,7 +32,7 @@ install(EXPORT penumbra NAMESPACE penumbra:: FILE penumbraTargets.cmake DESTINAT
 install(EXPORT penumbra_static NAMESPACE penumbra:: FILE penumbraStaticTargets.cmake DESTINATION "${package_dir}")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/penumbraConfig.cmake.in"
   "${PROJECT_BINARY_DIR}/penumbraConfig.cmake" INSTALL_DESTINATION "${package_dir}")
-write_basic_package_version_file("${PROJECT_BINARY_DIR}/penumbraConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/penumbraConfigVersion.cmake" COMPATIBILITY SameMajorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/penumbraConfig.cmake" "${PROJECT_BINARY_DIR}/penumbraConfigVersion.cmake"
   DESTINATION "${package_dir}")
 

@@ -9,8 +9,9 @@ if(PENUMBRA_DOXYGEN)
   add_custom_command(OUTPUT "${reference_dir}/html/index.html"
     COMMAND ${CMAKE_COMMAND} -E rm -rf "${reference_dir}"
     COMMAND ${CMAKE_COMMAND} -E make_directory "${reference_dir}"
-    COMMAND ${CMAKE_COMMAND} -E env "ROOT=${PROJECT_SOURCE_DIR}" "INCLUDE=${PROJECT_BINARY_DIR}/include"
-            "OUTPUT=${reference_dir}" "${PENUMBRA_DOXYGEN}" "${PROJECT_SOURCE_DIR}/docs/Doxyfile"
+    COMMAND ${CMAKE_COMMAND} -E copy "${PROJECT_SOURCE_DIR}/docs/reference.md" "${reference_dir}"
+    COMMAND "${PENUMBRA_DOXYGEN}" "${PROJECT_SOURCE_DIR}/docs/Doxyfile"
+    WORKING_DIRECTORY "${PROJECT_BINARY_DIR}"
     DEPENDS ${described} "${PROJECT_SOURCE_DIR}/docs/Doxyfile"
     COMMENT "Writing the reference" VERBATIM)
   add_custom_target(reference ALL DEPENDS "${reference_dir}/html/index.html")

@@ -40,6 +40,18 @@ std::unique_ptr<Context> make_context(std::string_view backend, const ContextOpt
   fail_unknown("backend", backend, names);
 }
 
+#ifdef PENUMBRA_WITHOUT_EGL
+std::unique_ptr<Context> make_egl_context(const ContextOptions&) { fail("EGL: not in this build"); }
+std::vector<std::string> egl_devices() { return {}; }
+#endif
+#ifdef PENUMBRA_WITHOUT_OSMESA
+std::unique_ptr<Context> make_osmesa_context(const ContextOptions&) { fail("OSMesa: not in this build"); }
+#endif
+#ifdef PENUMBRA_WITHOUT_WINDOW
+std::unique_ptr<Context> make_window_context(const ContextOptions&) { fail("window: not in this build"); }
+GLFWwindow* window_of(const Context&) { return nullptr; }
+#endif
+
 std::string_view to_string(Backend backend) {
   switch (backend) {
     case Backend::egl:

@@ -1,7 +1,9 @@
 // The engine hands its depth, its normals and a callback that draws its casters to Penumbra, gets a shadow mask, and
 // checks it: umbra under the square, light beside it, penumbra in between. Then it does the same with maps that it has
 // drawn itself, and with the same maps after the camera has moved. One of its programs includes the forward source.
+// Last, it draws with a technique of its own.
 #include <penumbra/gl/context.h>
+#include <penumbra/shadow/registry.h>
 #include <penumbra/shadow/soft_shadows.h>
 
 #include <cmath>
@@ -76,6 +78,35 @@ shadow::FinishedMaps draw_own_maps(const Setting& setting, const shadow::LightPr
   return {{depth, size, size}, projection};
 }
 
+// A technique of the engine's own beside the library's: hard shadows in which half of the light remains.
+constexpr const char* pale_text = R"(
+#include "shadow/light.glsl"
+float read_radius(Receiver receiver, Light light) { return 0.0; }
+Visibility visibility(Receiver receiver, Light light) {
+  float lit = lit_share(receiver, vec2(0.0), depth_bias(receiver, light), light);
+  return Visibility(mix(0.5, 1.0, lit), 0.0, 0.0, true, true);
+}
+)";
+
+shadow::Registry with_pale() {
+  shadow::Registry::Contents contents{.techniques = shadow::built_in_techniques()};
+  contents.techniques.push_back({.name = "pale",
+                                 .summary = "Hard shadows in which half of the light remains.",
+                                 .glsl = "engine/pale.glsl",
+                                 .needs = {"shadow_map"},
+                                 .soft = false});
+  return shadow::Registry(contents);
+}
+
+void check_pale(const std::vector<float>& mask) {
+  int shadowed = 0;
+  for (size_t i = 0; i < mask.size(); i += 4) {
+    expect(mask[i] > 0.49f, "less than half of the light remains");
+    shadowed += mask[i] < 0.51f;
+  }
+  expect(shadowed > 100, "the engine's own technique draws no shadow");
+}
+
 void run() {
   engine::make_context();
   gl::load_api(engine::proc_address);
@@ -83,8 +114,10 @@ void run() {
   const glm::mat4 view = engine::view({0, 5, 5});
   Setting setting{scene, engine::draw_frame(scene, view), view, glm::normalize(glm::vec3(-1, 2, 0.5f))};
 
-  gl::Device device(gl::ShaderFiles(), gl::Timers::Mode::off);
-  shadow::SoftShadows shadows(device);
+  gl::ShaderFiles files;
+  files.put("engine/pale.glsl", pale_text);
+  gl::Device device(files, gl::Timers::Mode::off);
+  shadow::SoftShadows shadows(device, with_pale());
   ParamSet params(shadows.registry().params());
   params.assign("sun.angle=8");
 
@@ -110,6 +143,9 @@ void run() {
 
   expect(engine::compiles("#version 450 core\n" + shadows.forward_source(params) + engine::forward_fragment_text),
          "the forward source does not compile in a shader of the engine's");
+
+  params.assign("technique=pale");
+  check_pale(gl::read_floats(*shadows.render(inputs_of(setting, lights), params).texture, 4));
   std::puts("mask as expected");
 }
 
