@@ -28,7 +28,7 @@ struct Common {
 void add_common(CLI::App& app, Common& common, const char* files) {
   app.add_option("-o,--output", common.output, files)->required()->type_name("FILE");
   app.add_option("--seed", common.seed, "Seed of the random numbers")->type_name("N")->capture_default_str();
-  app.add_flag("--quiet", common.quiet, "Print errors only")->disable_flag_override();
+  app.add_flag("--quiet,-q", common.quiet, "Print errors only")->disable_flag_override();
 }
 
 // The file's extension, which is one of those that can be written.

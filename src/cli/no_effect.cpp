@@ -46,7 +46,9 @@ constexpr std::array rules{
     Rule{"mask.tiles", "mask.scale", "4"},
     Rule{"cascades.split", "cascades.fit", "visible"},
     Rule{"cascades.split", "cascades.fit", "penumbrae"},
+    Rule{"cascades.split", "cascades.count", "1"},
     Rule{"cascades.blend", "cascades.seam", "none"},
+    Rule{"evsm.negative", "evsm.warps", "1"},
     Rule{"brute_force.blocker_taps", "brute_force.every_texel", "true"},
     Rule{"brute_force.filter_taps", "brute_force.every_texel", "true"},
     Rule{"esm.threshold", "esm.classification", "none"},
@@ -102,6 +104,8 @@ bool reads(const Technique& technique, const std::string& name, const Registry& 
   if (name == "sampling.blocker_pattern") return takes_pattern(technique, SampleSet::Step::blocker);
   if (name == "sampling.filter_pattern") return takes_pattern(technique, SampleSet::Step::filter);
   if (name == "sampling.scramble") return !technique.samples.empty() && technique.scramble.empty();
+  const bool is_of_maps = name.starts_with("cascades.") || name.starts_with("bias.");
+  if (is_of_maps && name != "cascades.size" && technique.needs.empty() && !technique.resolve) return false;
   if (name.starts_with("sampling.")) return technique.soft || !technique.samples.empty();
   if (lists(technique.params, name) || counts_samples(technique, name)) return true;
   const auto of_technique = [&](const Technique& other) { return lists(other.params, name); };

@@ -108,7 +108,10 @@ void add_view_options(CLI::App& app, SceneOptions& o) {
              o.lamps.back().number = static_cast<int>(o.lamps.size()) - 1;
            }
          },
-         "A lamp besides the scene's: X,Y,Z, then :radius=METRES :cd=CANDELA :to=X,Y,Z :cone=DEG ...; repeatable")
+         "A lamp besides the scene's: X,Y,Z, then any of :radius=METRES (0.03) :cd=CANDELA (100) :range=METRES "
+         "(unlimited) "
+         ":rgb=R,G,B (1,1,1), and for a spot :to=X,Y,Z, where it shines, :cone=DEG (40), from its axis to its rim, and "
+         ":inner=DEG (0.8 of the cone), within which it shines in full; repeatable")
       ->type_name("X,Y,Z[:...]")
       ->allow_extra_args(false);
   add_value(app, "--ground", "auto|on|off",

@@ -75,7 +75,7 @@ void add_options(CLI::App& app, DiffOptions& options) {
                  [&](const std::string& text) {
                    options.max_pixels = cli::parse_count("--max-pixels", text, 1, std::numeric_limits<int>::max());
                  });
-  app.add_flag("--quiet", options.quiet, "Print errors only")->disable_flag_override();
+  app.add_flag("--quiet,-q", options.quiet, "Print errors only")->disable_flag_override();
 }
 
 void check_together(const DiffOptions& options, const Metric& metric) {
