@@ -89,9 +89,10 @@ Visibility visibility(Receiver receiver, Light light) {
 )";
 
 shadow::Registry with_pale() {
-  shadow::Registry::Contents contents{.techniques = shadow::built_in_techniques()};
+  shadow::Registry::Contents contents = shadow::built_in_registry().contents();
   contents.techniques.push_back({.name = "pale",
                                  .summary = "Hard shadows in which half of the light remains.",
+                                 .source = "the engine's own",
                                  .glsl = "engine/pale.glsl",
                                  .needs = {"shadow_map"},
                                  .soft = false});

@@ -133,10 +133,10 @@ class Headers(support.TestCase):
             self.compile(compiler, standard, text)
 
     def test_the_snippets_of_the_page_about_the_library(self):
-        """Maps that an engine has, in C and in C++."""
+        """Maps that an engine has, in C and in C++; and a technique of its own."""
         page = (support.ROOT / "docs" / "library.md").read_text()
         c, = re.findall(r"^```c\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
-        cxx, = re.findall(r"^```cpp\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+        cxx, extending = re.findall(r"^```cpp\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
         own = "int use(uint32_t depth_array, int32_t size, const float* {0});\nint use(uint32_t depth_array, int32_t size, " \
               "const float* {0}) {{\n"
         for compiler, standard in C:
@@ -146,6 +146,10 @@ class Headers(support.TestCase):
         for compiler, standard in CXX:
             self.compile(compiler, standard, "#include <array>\n#include <penumbra.hpp>\n#include <penumbra_glm.hpp>\n"
                          + own.format("to_light") + cxx + "return light.maps_count;\n}\n")
+        for compiler, standard in CXX20:
+            self.compile(compiler, standard, "#include <penumbra/shadow/registry.h>\n#include <penumbra/shadow/soft_shadows.h>\n"
+                         "void draw(const char* pale_text);\nvoid draw(const char* pale_text) {\n" + extending + "}\n",
+                         f"-I{support.BUILD / 'include'}")
 
     def test_headers_for_extending_say_what_must_not_come_before_them(self):
         text, include = "#include <{}>\n#include <{}>\n", f"-I{support.BUILD / 'include'}"
