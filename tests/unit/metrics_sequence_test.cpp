@@ -128,6 +128,45 @@ TEST(Recovery, AfterAStopLooksWhereTheShadowMoved) {
   EXPECT_EQ(figures.recoveries[0].static_error, 0) << "of the region alone";
 }
 
+// Each column of the picture changes at another frame, and has an error of its own from then on.
+TEST(Recovery, AfterAStopLooksEightFramesBackAndTheStopIsOneOfThem) {
+  for (const int ago : {0, 7, 8}) {
+    SequenceMetrics metrics;
+    const int changes = 12 - ago;
+    for (int frame = 0; frame <= 12 + 20; ++frame) {
+      // Column 0 changes at the frame of the stop and is right; column 1 changes `ago` frames before.
+      const auto reference = [=](int x, int /*y*/) {
+        return (x == 0 && frame >= 12) || (x == 1 && frame >= changes) ? 0 : 1;
+      };
+      Grey shown(side, side, reference);
+      for (int y = 0; y < side; ++y) shown.at(1, y) = 0.5f;
+      metrics.add(shown, Grey(side, side, reference), {}, frame == 12 ? Event::stop : Event::none);
+    }
+    EXPECT_EQ(metrics.figures().recoveries.at(0).static_error, ago < 8 ? 0.25 : 0.0) << ago;
+  }
+}
+
+TEST(Recovery, AfterAStopLooksAtPixelsThatBecameReceivers) {
+  SequenceMetrics metrics;
+  std::vector<std::uint8_t> receivers(side * side, 1);
+  for (const bool there : {false, true}) {
+    receivers[0] = there ? 1 : 0;
+    for (int frame = 0; frame < (there ? 17 : 3); ++frame)
+      metrics.add(lit, dark, receivers, there && frame == 1 ? Event::stop : Event::none);
+  }
+  EXPECT_EQ(metrics.figures().recoveries.at(0).static_error, 1) << "as dark as what is no receiver, but a change";
+}
+
+TEST(Recovery, TheFirstFrameAndThatOfACutAreNoChange) {
+  for (const bool cut : {false, true}) {
+    SequenceMetrics metrics;
+    if (cut) metrics.add(dark, dark);
+    metrics.add(lit, lit, {}, cut ? Event::cut : Event::none);
+    for (int frame = 0; frame < 20; ++frame) metrics.add(dark, lit, {}, frame == 0 ? Event::stop : Event::none);
+    EXPECT_TRUE(std::isnan(metrics.figures().recoveries.back().static_error)) << "nothing moved before the stop";
+  }
+}
+
 TEST(Recovery, IsToldFromSixteenFramesThatOfTheEventIncluded) {
   for (const auto event : {Event::cut, Event::stop}) {
     for (const int frames : {15, 16}) {
