@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/error.h"
 #include "metrics/penumbra_width.h"
@@ -79,6 +81,28 @@ TEST(PenumbraWidth, LinesEndAtWhatIsNoReceiver) {
   EXPECT_EQ(penumbra_width(wider, reference, receivers).measured, 0u);
   EXPECT_GT(penumbra_width(wider, reference, receivers).lost, 1000u);
   EXPECT_GT(penumbra_width(reference, reference, receivers).measured, 1000u);
+}
+
+// Rows are lighter and darker by turns, which leaves the width along a row what it is but tilts the gradient by up to
+// 39 degrees where nothing smooths it. The test's edge is at 20 degrees to the reference's.
+TEST(PenumbraWidth, LinesFollowTheSmoothedReference) {
+  const Grey even = ramp(120, 0, 20), tilted = ramp(120, 20, 20);
+  const Grey rippled(120, 120, [&](int x, int y) {
+    const double ripple = y % 3 == 1 ? 0.04 : y % 3 == 2 ? -0.04 : 0;
+    return even.pixels[static_cast<std::size_t>(y * 120 + x)] + ripple;
+  });
+  const double exact = 1 / std::cos(20 * std::numbers::pi / 180) - 1;
+  EXPECT_NEAR(penumbra_width(tilted, even).relative, exact, 0.001);
+  EXPECT_NEAR(penumbra_width(tilted, rippled).relative, exact, 0.02);
+}
+
+// All rows are alike, or all columns.
+TEST(PenumbraWidth, OfPixelsAtTheBorderIsThatOfTheOthers) {
+  for (const double degrees : {0.0, 90.0, 180.0, 270.0}) {
+    const PenumbraWidth width = penumbra_width(ramp(60, degrees, 30), ramp(60, degrees, 20));
+    EXPECT_EQ(width.measured, 60u * 20) << degrees;
+    EXPECT_EQ(width.lost, 0u) << degrees;
+  }
 }
 
 TEST(PenumbraWidth, OfTinyAndEmptyPictures) {
