@@ -182,6 +182,47 @@ TEST(TruthPenumbra, WhatIsBehindALocalLightDoesNotBlockIt) {
   }
 }
 
+// What is nearer to a lamp's plane than this, as seen from the receiver, belongs to the lamp.
+TEST(TruthPenumbra, WhatIsVeryNearALocalLightDoesNotBlockIt) {
+  TruthScene scene;
+  scene.add_quad({-9, 4.75f, -9}, {18, 0, 0}, {0, 0, 18});
+  const truth::Tracer tracer = scene.tracer();
+  const auto row = ground_row(-3, 3, 60);
+  for (const double clear : {0.0, 0.24, 0.27, 0.3, 20.0}) {
+    const Traced traced = trace_row(tracer, row, LocalLight{.position = {0, 5, 0}, .radius = 1e-4, .clear = clear});
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const float lit = 0.05 * glm::length(row[i].position - glm::dvec3(0, 5, 0)) < clear ? 1 : 0;
+      EXPECT_EQ(traced.visibility[i], lit) << clear << ", " << row[i].position.x;
+      EXPECT_EQ(traced.hard[i], lit) << clear << ", " << row[i].position.x;
+    }
+  }
+}
+
+TEST(TruthPenumbra, ASpotShinesWithinItsConeAndItsRange) {
+  const TruthScene scene;
+  const truth::Tracer tracer = scene.tracer();
+  const auto row = ground_row(-6, 6, 120);
+  const LocalLight everywhere{.position = {0, 5, 0}, .radius = 0.1};
+  LocalLight cone = everywhere, range = everywhere, both = everywhere;
+  cone.cone = both.cone = truth::SpotCone{.axis = {0, -1, 0}, .cosine = std::cos(glm::radians(40.0))};
+  range.range = 5.5;
+  both.range = 5.2;
+  const auto within = [](double most) { return [=](double x) { return std::abs(x) <= most; }; };
+  const double rim = 5 * std::tan(glm::radians(40.0));
+  const auto expect = [&](const LocalLight& light, const auto& shines) {
+    const Traced traced = trace_row(tracer, row, light);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const float lit = shines(row[i].position.x) ? 1 : 0;
+      EXPECT_EQ(traced.visibility[i], lit) << row[i].position.x;
+      EXPECT_EQ(traced.hard[i], lit) << row[i].position.x;
+    }
+  };
+  expect(everywhere, within(10));
+  expect(cone, within(rim));
+  expect(range, within(std::sqrt(5.5 * 5.5 - 25)));
+  expect(both, within(std::sqrt(5.2 * 5.2 - 25)));
+}
+
 // The part of the sun's disc below a receiver's horizon does not light it.
 TEST(TruthPenumbra, ASunHalfBelowTheSurfaceIsHalfVisible) {
   const TruthScene scene;
