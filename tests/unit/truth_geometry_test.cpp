@@ -77,6 +77,8 @@ TEST(TruthGeometry, ConvexBodiesHaveNeitherAcneNorLeaks) {
   const TracedSun sun{.to_light = glm::normalize(glm::dvec3(0.5, 0.6, -0.4)), .angle = glm::radians(3.0)};
   for (const Place& place : places) {
     for (const float radius : {0.5f, 40.0f}) {
+      // Far from the origin, vertices are rounded so much that the small ball is no longer convex.
+      if (radius < 1e-5f * glm::length(place.at)) continue;
       TruthScene scene;
       const scene::PosedSurface& surface =
           scene.place(add_ball(scene, radius, 30), glm::translate(glm::mat4(1), place.at));
@@ -84,8 +86,7 @@ TEST(TruthGeometry, ConvexBodiesHaveNeitherAcneNorLeaks) {
       std::vector<Receiver> lit, inside;
       for (std::size_t i = 0; i < truth::triangle_count(surface); ++i) {
         const auto corners = truth::world_triangle(surface, i);
-        // Far from the origin, vertices are rounded so much that the small ball is no longer convex.
-        if (!corners || radius < 1e-5f * glm::length(place.at)) continue;
+        if (!corners) continue;
         const glm::dvec2 p = point_in_triangle(random);
         const glm::dvec3 outwards = (*corners)[0] - glm::dvec3(place.at);
         const Receiver out = receiver_on(surface, i, p.x, p.y, outwards);
@@ -93,6 +94,9 @@ TEST(TruthGeometry, ConvexBodiesHaveNeitherAcneNorLeaks) {
         if (glm::dot(out.normal, sun.to_light) > std::sin(sun.angle / 2) + 1e-6) lit.push_back(out);
         if (glm::dot(in.normal, sun.to_light) > std::sin(sun.angle / 2) + 1e-6) inside.push_back(in);
       }
+      // About half of the 3480 triangles that have an area.
+      EXPECT_GT(lit.size(), 1500u) << place.name;
+      EXPECT_GT(inside.size(), 1500u) << place.name;
       const truth::Tracer tracer = scene.tracer();
       const Traced outside = trace_row(tracer, lit, sun, {.samples = 32});
       EXPECT_EQ(std::ranges::count_if(outside.visibility, [](float v) { return v != 1; }), 0)
@@ -104,17 +108,20 @@ TEST(TruthGeometry, ConvexBodiesHaveNeitherAcneNorLeaks) {
   }
 }
 
-// Large askew planes under a low sun, seen from above and below.
+// Large askew planes under a low sun, seen from above and below. `apart`: there is another one on the other side of the
+// origin, so that coordinates are as large as that, too.
 TEST(TruthGeometry, LargePlanesDoNotShadowThemselves) {
   Random random(11);
   for (const Place& place : places) {
-    for (int turn = 0; turn < 12; ++turn) {
+    for (int turn = 0; turn < 24; ++turn) {
+      const bool apart = turn % 2 == 1;
       TruthScene scene;
       const glm::vec3 axis = glm::normalize(glm::vec3(random.real() - 0.5, random.real() - 0.5, random.real() - 0.5));
       const glm::mat4 world = glm::rotate(glm::translate(glm::mat4(1), place.at), static_cast<float>(turn), axis);
       scene::Primitive& quad = scene.add_primitive();
       quad.positions = {{-100, 0, -100}, {-100, 0, 100}, {100, 0, 100}, {100, 0, -100}};
       quad.indices = {0, 1, 2, 0, 2, 3};
+      if (apart) scene.place(quad, glm::translate(glm::mat4(1), -place.at - glm::vec3(0, 300, 0)));
       const scene::PosedSurface& surface = scene.place(quad, world);
       std::vector<Receiver> row;
       for (int i = 0; i < 300; ++i) {
@@ -125,7 +132,8 @@ TEST(TruthGeometry, LargePlanesDoNotShadowThemselves) {
       const glm::dvec3 along = glm::normalize(glm::cross(row[0].normal, glm::dvec3(0.3, 0.8, 0.5)));
       const TracedSun sun{.to_light = along + 0.05 * row[0].normal, .angle = glm::radians(2.0)};
       const Traced traced = trace_row(scene.tracer(), row, sun, {.samples = 16});
-      EXPECT_EQ(std::ranges::count_if(traced.visibility, [](float v) { return v != 1; }), 0) << place.name;
+      EXPECT_EQ(std::ranges::count_if(traced.visibility, [](float v) { return v != 1; }), 0)
+          << place.name << (apart ? ", two" : ", one");
     }
   }
 }
@@ -327,6 +335,33 @@ TEST(TruthGeometry, SharedTrianglesHaveNoAcne) {
   int differ = 0;
   for (std::size_t i = 0; i < row.size(); ++i) differ += shared.hard[i] != flat.hard[i] ? 1 : 0;
   EXPECT_LE(differ, static_cast<int>(row.size() / 1000));
+}
+
+// Rays are transformed to the space of each ball, whose vertices are far from that space's own origin.
+TEST(TruthGeometry, SharedTrianglesFarFromTheirOriginHaveNoAcne) {
+  const TracedSun sun{.to_light = glm::normalize(glm::dvec3(0.5, 0.6, -0.4)), .angle = glm::radians(3.0)};
+  for (const auto& [away, apart] : {std::pair(0.0f, 200.0f), {1000.0f, 200.0f}, {10000.0f, 20000.0f}}) {
+    TruthScene scene;
+    scene::Primitive& ball = add_ball(scene, 40, 30);
+    for (glm::vec3& p : ball.positions) p.x += away;
+    for (const float down : {0.0f, apart}) scene.place(ball, glm::translate(glm::mat4(1), glm::vec3(-away, -down, 0)));
+    const truth::Tracer tracer = scene.tracer({.flat_triangles = 100});
+    EXPECT_EQ(tracer.stats().instances, 2U);
+    Random random(5);
+    std::vector<Receiver> lit;
+    for (const scene::PosedSurface& surface : scene.geometry().surfaces) {
+      // Without those at the poles, some of which have no area.
+      for (std::size_t i = 120; i + 120 < truth::triangle_count(surface); ++i) {
+        const glm::dvec2 p = point_in_triangle(random);
+        const glm::dvec3 corner = truth::world_triangle(surface, i).value()[0];
+        const Receiver out = receiver_on(surface, i, p.x, p.y, corner - glm::dvec3(0, surface.world[3].y, 0));
+        if (glm::dot(out.normal, sun.to_light) > std::sin(sun.angle / 2) + 0.01) lit.push_back(out);
+      }
+    }
+    EXPECT_GT(lit.size(), 3000u) << away;
+    const Traced traced = trace_row(tracer, lit, sun, {.samples = 32});
+    EXPECT_EQ(std::ranges::count_if(traced.visibility, [](float v) { return v != 1; }), 0) << away;
+  }
 }
 
 TEST(TruthGeometry, TooLittleMemoryIsAnErrorInOneLine) {
