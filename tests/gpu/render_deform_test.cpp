@@ -270,19 +270,6 @@ TEST_F(DeformTest, NormalsFollowTheMorphAndTheJoints) {
   EXPECT_LT(glm::distance(pixel3("normal", width / 2 + 3, height / 2), expected), 1e-3f);
 }
 
-// A scene whose normal map leans to the side of the tangents, and a square for it.
-std::pair<scene::Scene, scene::Primitive> leaning_square() {
-  scene::Primitive quad = square();
-  quad.tangents.assign(4, {1, 0, 0, 1});
-  quad.uvs[0].assign(4, {0.5f, 0.5f});
-  quad.material = 0;
-  scene::Scene scene;
-  scene.images.push_back({.name = "leaning to the right", .rgba = {204, 128, 230, 255}});
-  scene.textures.push_back({.image = 0});
-  scene.materials.push_back({.normal_texture = {.texture = 0}});
-  return {scene, quad};
-}
-
 TEST_F(DeformTest, TangentsFollowTheMorph) {
   auto [scene, quad] = leaning_square();
   quad.targets.resize(1);

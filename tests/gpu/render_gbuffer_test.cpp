@@ -88,16 +88,10 @@ TEST_F(GBufferTest, GeometricNormalsOfTrianglesWithoutAreaAreTheSmoothOnes) {
 }
 
 TEST_F(GBufferTest, NormalMapsLeanAsFarAsTheirScaleSays) {
-  scene::Primitive quad = square();
-  quad.tangents.assign(4, {1, 0, 0, 1});
-  quad.uvs[0].assign(4, {0.5f, 0.5f});
-  quad.material = 0;
-  scene::Scene scene;
-  scene.images.push_back({.name = "leaning to the right", .rgba = {204, 128, 230, 255}});
-  scene.textures.push_back({.image = 0});
+  auto [scene, quad] = leaning_square();
   add_node(scene, quad, glm::mat4(1));
   for (const float scale : {1.0f, 0.5f, -2.0f}) {
-    scene.materials = {{.normal_texture = {.texture = 0}, .normal_scale = scale}};
+    scene.materials[0].normal_scale = scale;
     draw(scene);
     const glm::vec3 expected = glm::normalize(glm::vec3(0.6f * scale, 0, 0.8f));
     EXPECT_LT(glm::distance(pixel3("normal", width / 2, height / 2), expected), 0.01f) << scale;

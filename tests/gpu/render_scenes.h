@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <utility>
 #include <vector>
 
 #include "gpu_test.h"
@@ -18,6 +19,19 @@ inline scene::Primitive square() {
   square.normals.assign(4, {0, 0, 1});
   square.indices = {0, 1, 2, 0, 2, 3};
   return square;
+}
+
+// A scene whose material 0 has a normal map that leans to the side of the tangents, and a square of that material.
+inline std::pair<scene::Scene, scene::Primitive> leaning_square() {
+  scene::Primitive quad = square();
+  quad.tangents.assign(4, {1, 0, 0, 1});
+  quad.uvs[0].assign(4, {0.5f, 0.5f});
+  quad.material = 0;
+  scene::Scene scene;
+  scene.images.push_back({.name = "leaning to the right", .rgba = {204, 128, 230, 255}});
+  scene.textures.push_back({.image = 0});
+  scene.materials.push_back({.normal_texture = {.texture = 0}});
+  return {scene, quad};
 }
 
 // Adds a node that draws one primitive.
