@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "shadow/light_projection.h"
 
@@ -119,8 +122,9 @@ TEST(Cascades, GrowAndNest) {
   in.receivers = {{-500, 0, -500}, {500, 9, 500}};
   in.distance = 100;
   in.split_blend = 0;
-  for (const int count : {2, 4, 8}) {
+  for (const auto& [count, size] : {std::pair(2, 2048), {4, 2048}, {8, 2048}, {4, 12}, {4, 16}, {4, 20}}) {
     in.count = count;
+    in.size = size;
     const Cascades cascades = fit_cascades(in);
     ASSERT_EQ(cascades.items.size(), static_cast<size_t>(count));
     for (size_t i = 0; i < cascades.items.size(); ++i) {
@@ -259,6 +263,83 @@ TEST(Cascades, WideBoundsAreCutOffUnlessTheyAreExact) {
   EXPECT_EQ(fit_cascades(in).cut_off, CutOff{});
   EXPECT_GT(last().half_extent.x, 1e4);
   EXPECT_GT(last().far_z - last().near_z, 1e6);
+}
+
+TEST(Cascades, WideBoundsAreSeenToTenTimesTheDistanceAtWhichTheyBegin) {
+  CascadeInputs in = courtyard();
+  in.to_light = {0, 1, 0};
+  in.view = glm::lookAt(glm::vec3(0, 10, 0), glm::vec3(0, 10, -1), glm::vec3(0, 1, 0));
+  for (const auto& [begin, end, cut] : {std::tuple(2000.0f, 19000.0f, false), {2000.0f, 21000.0f, true}}) {
+    in.casters = in.receivers = {{-20, 0, -end}, {20, 9, -begin}};
+    EXPECT_EQ(fit_cascades(in).cut_off, (CutOff{.view = cut})) << end;
+  }
+}
+
+TEST(Cascades, WideBoundsAreCutOffBehindAnOrthographicCamera) {
+  CascadeInputs in = courtyard();
+  in.to_light = {0, 1, 0};
+  in.projection = glm::ortho(-30.0f, 30.0f, -30.0f, 30.0f, -20000.0f, 100.0f);
+  in.nearest = -20000;
+  in.view = glm::lookAt(glm::vec3(0, 5, 0), glm::vec3(0, 5, -1), glm::vec3(0, 1, 0));
+  in.casters = in.receivers = {{-20, 0, -10}, {20, 9, 20000}};
+  EXPECT_EQ(fit_cascades(in).cut_off, CutOff{.view = true});
+  EXPECT_LT(fit_cascades(in).items.back().half_extent.x, range_in_wide_bounds);
+}
+
+// Casters that are far below the receivers shadow none of them.
+TEST(Cascades, WideBoundsAreLeftOutBelowTheReceivers) {
+  CascadeInputs in = courtyard();
+  in.to_light = {0, 1, 0};
+  const double alone = fit_cascades(in).items.back().far_z;
+  in.casters.min.y = -1e6f;
+  const Cascades below = fit_cascades(in);
+  EXPECT_EQ(below.cut_off, CutOff{});
+  EXPECT_LT(below.items.back().far_z, alone + 100);
+}
+
+// Of logarithmic ones: the first begins at a thousandth of the whole range, where receivers begin at the camera.
+TEST(Cascades, RangesGrowByTheSameRatio) {
+  CascadeInputs in = courtyard();
+  in.casters = in.receivers = {{-500, 0, -500}, {500, 9, 500}};
+  in.distance = 100;
+  in.split_blend = 1;
+  const std::vector<Cascade> items = fit_cascades(in).items;
+  const double ratio = std::pow(1000, 0.25);
+  for (size_t i = 2; i < items.size(); ++i) {
+    EXPECT_NEAR(items[i].half_extent.x / items[i - 1].half_extent.x, ratio, 0.09 * ratio) << i;
+  }
+}
+
+// The margin for discs, of all but the last cascade.
+TEST(Cascades, FinerOnesAreUpToAQuarterWiderForDiscs) {
+  CascadeInputs in = courtyard();
+  in.receivers = {{-500, 0, -500}, {500, 9, 500}};
+  in.casters = {{-500, 0, -500}, {500, 2000, 500}};
+  in.distance = 100;
+  in.tan_half_angle = 0;
+  const Cascades without = fit_cascades(in);
+  in.tan_half_angle = std::tan(glm::radians(5.0f));
+  const Cascades with = fit_cascades(in);
+  const double rounding = std::exp2(1.0 / 16);  // of the widths, upwards
+  for (size_t i = 0; i + 1 < with.items.size(); ++i) {
+    const double wider = with.items[i].half_extent.x / without.items[i].half_extent.x;
+    EXPECT_GT(wider, 1.25 / rounding) << i;
+    EXPECT_LT(wider, 1.25 * rounding) << i;
+  }
+}
+
+TEST(Cascades, AMapWithNothingOverItHasARange) {
+  CascadeInputs in = courtyard();
+  in.to_light = {0, 1, 0};
+  in.distance = 10;
+  in.casters = in.receivers = {{1000, 0, 1000}, {1010, 9, 1010}};
+  const Cascades cascades = fit_cascades(in);
+  EXPECT_EQ(LightProjection(cascades).fault(), "");
+  for (const Cascade& cascade : cascades.items) {
+    EXPECT_LT(cascade.near_z, cascade.center.y + 1e4);
+    EXPECT_GT(cascade.far_z - cascade.near_z, 0.1f);
+    EXPECT_LT(cascade.far_z - cascade.near_z, 1e4f);
+  }
 }
 
 // As it is before an engine has loaded anything but one object's place.

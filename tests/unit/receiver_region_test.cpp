@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <utility>
 
 #include "shadow/light_projection.h"
 
@@ -20,9 +21,9 @@ CascadeInputs town(float elevation, float sun_angle) {
   return in;
 }
 
-// Calls `test` for points of the receivers' box that the view sees.
+// Calls `test` for points of the receivers' box that the view sees, or one that is wider by `beside` in NDC.
 template <class Test>
-int for_each_seen(const CascadeInputs& in, const Test& test) {
+int for_each_seen(const CascadeInputs& in, double beside, const Test& test) {
   const glm::dmat4 world_to_clip = glm::dmat4(in.projection) * glm::dmat4(in.view);
   int seen = 0;
   for (int x = 0; x <= 80; ++x) {
@@ -31,7 +32,8 @@ int for_each_seen(const CascadeInputs& in, const Test& test) {
         const glm::dvec3 point = glm::mix(glm::dvec3(in.receivers.min), glm::dvec3(in.receivers.max),
                                           glm::dvec3(x / 80.0, y / 6.0, z / 80.0));
         const glm::dvec4 clip = world_to_clip * glm::dvec4(point, 1);
-        if (clip.w <= 0 || std::abs(clip.x) > clip.w || std::abs(clip.y) > clip.w) continue;
+        const double most = (1 + beside) * clip.w;
+        if (clip.w <= 0 || std::abs(clip.x) > most || std::abs(clip.y) > most) continue;
         ++seen;
         test(point);
       }
@@ -50,27 +52,46 @@ LightBounds casters_in(const CascadeInputs& in, const Cascades& cascades) {
   return bounds;
 }
 
-// How many points have a disc that is not drawn whole, as far as there may be casters, in a cascade that contains the
-// point.
-int cut_discs(const CascadeInputs& in) {
+// Texels of a map.
+struct Texels {
+  glm::dvec2 low, high;
+};
+
+// What a disc's bounds are read from: 2 x 2 texels of a pyramid's finest level at which the disc and the texels beside
+// it touch no more. `radius`: of the disc, texels.
+Texels read_around(const glm::dvec2& place, const glm::dvec2& radius) {
+  const glm::dvec2 reach = radius * ((glm::max(radius.x, radius.y) + 1.5) / std::max(radius.x, radius.y));
+  double width = 4;
+  while (width < 2 * glm::max(reach.x, reach.y)) width *= 2;
+  return {glm::floor((place - reach) / width) * width, (glm::floor((place + reach) / width) + 1.0) * width};
+}
+
+// How many points have a disc around which the map is not drawn whole, as far as there may be casters, in a cascade
+// that contains the point.
+int cut_discs(const CascadeInputs& in, const ReadMargins& margins = {}) {
   Cascades cascades = fit_cascades(in);
-  narrow_to_receivers(cascades, in, {});
+  narrow_to_receivers(cascades, in, margins);
   const LightBounds casters = casters_in(in, cascades);
+  const double nearest = std::min<double>(cascades.items.back().near_z, margins.nearest);
   int cut = 0;
-  const int seen = for_each_seen(in, [&](const glm::dvec3& world) {
+  const int seen = for_each_seen(in, margins.ndc, [&](const glm::dvec3& world) {
     const glm::dvec3 point = cascades.world_to_light * (world - cascades.anchor);
     for (int i = 0; i < in.count; ++i) {
       const Cascade& cascade = cascades.items[static_cast<size_t>(i)];
       const glm::dvec2 from_center = glm::abs(glm::dvec2(point) - glm::dvec2(cascade.center));
       const glm::dvec2 half(cascade.half_extent), texel(cascades.texel(i));
       if (glm::any(glm::greaterThan(from_center, half))) continue;
-      const double disc = in.tan_half_angle * (point.z - cascades.items.back().near_z);
+      const double disc = in.tan_half_angle * (point.z - nearest);
+      const glm::dvec2 moved = margins.texels * glm::max(texel.x, texel.y) / texel;
       const glm::dvec2 place = (glm::dvec2(point) - glm::dvec2(cascade.center) + half) / texel;
       const TexelRange drawn = cascades.drawn_texels(i);
       const glm::dvec2 origin = glm::dvec2(cascade.center) - half;
-      const glm::dvec2 low = glm::max(place - disc / texel, glm::max((glm::dvec2(casters.low) - origin) / texel, 0.0));
-      const glm::dvec2 high = glm::min(
-          place + disc / texel, glm::min((glm::dvec2(casters.high) - origin) / texel, static_cast<double>(in.size)));
+      const glm::dvec2 radius = glm::max(disc / texel, 1e-6);
+      const glm::dvec2 low =
+          glm::max(read_around(place - moved, radius).low, glm::max((glm::dvec2(casters.low) - origin) / texel, 0.0));
+      const glm::dvec2 high =
+          glm::min(read_around(place + moved, radius).high,
+                   glm::min((glm::dvec2(casters.high) - origin) / texel, static_cast<double>(in.size)));
       if (glm::any(glm::greaterThan(low, high))) continue;
       const bool whole = glm::all(glm::lessThanEqual(glm::dvec2(drawn.first), low)) &&
                          glm::all(glm::greaterThanEqual(glm::dvec2(drawn.last + 1), high));
@@ -86,6 +107,9 @@ TEST(ReceiverRegion, HoldsTheDiscOfEveryReceiverThatTheViewSees) {
     for (const float angle : {0.0f, 0.53f, 8.0f}) {
       CascadeInputs in = town(elevation, angle);
       EXPECT_EQ(cut_discs(in), 0) << elevation << ", " << angle;
+      in.casters = {{-120, 0, -120}, {120, 9, 120}};
+      EXPECT_EQ(cut_discs(in), 0) << elevation << ", " << angle << ", casters beside all receivers";
+      in.casters = in.receivers;
       in.distance = 20;
       EXPECT_EQ(cut_discs(in), 0) << elevation << ", " << angle << ", within 20 m";
       in.distance = 0;
@@ -93,6 +117,34 @@ TEST(ReceiverRegion, HoldsTheDiscOfEveryReceiverThatTheViewSees) {
       EXPECT_EQ(cut_discs(in), 0) << elevation << ", " << angle << ", orthographic";
       in.view = glm::lookAt(glm::vec3(0, 40, 0), glm::vec3(1, 0, 0), glm::vec3(0, 0, 1));
       EXPECT_EQ(cut_discs(in), 0) << elevation << ", " << angle << ", from above";
+    }
+  }
+}
+
+// Offsets along normals, jittered views, and casters that were nearer to the light in the last frame.
+TEST(ReceiverRegion, HoldsWhatMarginsAskFor) {
+  for (const float elevation : {5.0f, 45.0f, 90.0f}) {
+    for (const float angle : {0.0f, 0.53f, 8.0f}) {
+      const CascadeInputs in = town(elevation, angle);
+      EXPECT_EQ(cut_discs(in, {.texels = 40}), 0) << elevation << ", " << angle;
+      EXPECT_EQ(cut_discs(in, {.ndc = 0.4}), 0) << elevation << ", " << angle;
+      EXPECT_EQ(cut_discs(in, {.nearest = -1000}), 0) << elevation << ", " << angle;
+    }
+  }
+}
+
+// So that a camera that moves a little needs the same ones.
+TEST(ReceiverRegion, IsOfWholeBlocksOfTexels) {
+  for (const auto& [size, block] : {std::pair(100, 1), {512, 4}, {2048, 16}}) {
+    CascadeInputs in = town(45, 0.53f);
+    in.size = size;
+    Cascades cascades = fit_cascades(in);
+    narrow_to_receivers(cascades, in, {});
+    EXPECT_EQ(cut_discs(in), 0) << size;
+    for (int i = 0; i < in.count; ++i) {
+      const TexelRange drawn = cascades.drawn_texels(i);
+      EXPECT_EQ(drawn.first % block, glm::ivec2(0)) << size;
+      EXPECT_EQ((drawn.last + 1) % block, glm::ivec2(0)) << size;
     }
   }
 }
@@ -150,8 +202,9 @@ TEST(ReceiverRegion, HoldsTheCastersAloneWhereTheyAreFew) {
                      glm::dvec2(few.texel(i))));
       const TexelRange all = many.drawn_texels(i);
       if (glm::any(glm::lessThan(texel, all.first)) || glm::any(glm::greaterThan(texel, all.last))) continue;
-      EXPECT_TRUE(glm::all(glm::lessThanEqual(drawn.first, texel)) && glm::all(glm::lessThanEqual(texel, drawn.last)))
-          << "cascade " << i;
+      // With the whole block of a pyramid's finest level, 4 x 4 texels, and the row of texels around it.
+      const TexelRange around{glm::max(texel / 4 * 4 - 1, all.first), glm::min(texel / 4 * 4 + 4, all.last)};
+      EXPECT_TRUE(drawn.contains(around)) << "cascade " << i;
     }
   }
   const int last = in.count - 1;
