@@ -99,11 +99,32 @@ TEST_F(LampLightTest, ANarrowSpotIsAsBrightAsOthersOnItsAxis) {
   }
 }
 
+// Light along the wall is that of a sun in its direction, as near to the wall as that is.
 TEST_F(LampLightTest, ALampOnASurfaceGivesFiniteLight) {
+  const glm::vec3 wall = wall_at(width / 2, height / 2);
   for (const float radius : {0.0f, 0.5f}) {
-    for (const float value :
-         color_with({render::LampLight{.position = {0, 0, 1e-7f}, .radius = radius, .intensity = glm::vec3(1e12f)}}))
-      ASSERT_TRUE(std::isfinite(value)) << radius;
+    for (const float above : {0.0f, 1e-7f, -1e-7f, 0.1f}) {
+      const std::vector<float> color = color_with({render::LampLight{
+          .position = wall + glm::vec3(0, 0, above), .radius = radius, .intensity = glm::vec3(1e12f)}});
+      for (const float value : color) {
+        ASSERT_TRUE(std::isfinite(value)) << radius;
+        ASSERT_GE(value, 0) << radius;
+      }
+      if (above > 0.01f) {
+        EXPECT_GT(red(color, width / 2, height / 2), 6e4f) << "less than the greatest that pictures store";
+      }
+    }
+    const glm::vec3 place = wall + glm::vec3(0, 0, 1e-3f);
+    const std::vector<float> color =
+        color_with({render::LampLight{.position = place, .radius = radius, .intensity = glm::vec3(1e3f)}});
+    for (const int x : {width / 2 + 1, width / 2 + 5, width / 2 - 12}) {
+      const glm::vec3 to_lamp = place - wall_at(x, height / 2);
+      const float away = std::max(glm::length(to_lamp), radius);
+      const std::vector<float> sun =
+          color_with({render::SunLight{.to_light = glm::normalize(to_lamp), .illuminance = glm::vec3(1)}});
+      const float expected = 1e3f / (away * away) * red(sun, x, height / 2);
+      EXPECT_NEAR(red(color, x, height / 2), expected, 0.02f * expected) << radius << ", pixel " << x;
+    }
   }
 }
 
