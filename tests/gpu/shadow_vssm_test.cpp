@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "gpu/exact_penumbra.h"
 #include "gpu/triangle_scene.h"
 
 namespace penumbra::test {
@@ -80,6 +83,53 @@ TEST_F(Vssm, UnderRoofsAtTwoHeightsItIsDark) {
       scene.add_quad({high.x, 15, high.z - 15}, {0, 0, 30}, {15, 0, 0});
       for (const float visibility : draw(scene, angle).visibilities())
         ASSERT_EQ(visibility, 0) << "elevation " << elevation << ", sun of " << angle << " degrees";
+    }
+  }
+}
+
+// Below the line where two roofs meet, at heights of 10 and 20 m, the light's cone is twice as wide at the higher one.
+// A cone's edge crosses parts of the kernel of which a share is taken, hence the tolerance.
+TEST_F(Vssm, TheMeanHeightIsThatOfBlockersWithinTheCone) {
+  TriangleScene scene = ground(90);
+  scene.add_quad({-15, 10, -15}, {0, 0, 30}, {15, 0, 0});
+  scene.add_quad({0, 20, -15}, {0, 0, 30}, {15, 0, 0});
+  scene.projection = orthographic(3, 0.4f, 0.1f, 10);
+  scene.height = 8;
+  const Shadowed shadowed = draw(scene, 8);
+  const double slope = std::tan(glm::radians(4.0));
+  for (int x = 0; x < shadowed.width; ++x) {
+    const double place = shadowed.point(x, 3).x / slope;  // of discs as large as their height
+    const double low = 100 * exact_disc(-place / 10), high = 400 * exact_disc(place / 20);
+    const double mean = shadowed.mask[4 * static_cast<size_t>(3 * shadowed.width + x) + 2];
+    EXPECT_NEAR(mean, (10 * low + 20 * high) / (low + high), 2) << place;
+  }
+}
+
+// Half-planes at 5 m, under suns for which the ground is a tilted plane.
+TEST_F(Vssm, PenumbraeOfObliqueSunsAreNearTheExactFunction) {
+  for (const float elevation : {30.0f, 60.0f}) {
+    for (const auto& [angle, most] : {std::pair(2.0f, 0.04), {8.0f, 0.065}}) {
+      for (const float azimuth : {0.0f, 45.0f, 90.0f}) {
+        const double height = 5, slope = std::tan(glm::radians(static_cast<double>(angle)) / 2);
+        TriangleScene scene = ground(elevation);
+        scene.to_light = sun_direction(azimuth, elevation);
+        const auto middle = static_cast<float>(-height * scene.to_light.x / scene.to_light.y);
+        const auto reach = static_cast<float>(1.6 * height * slope / (scene.to_light.y * scene.to_light.y));
+        scene.add_quad({-60, 5, -60}, {0, 0, 120}, {60, 0, 0});
+        scene.receivers = shadow::Box{{middle - reach, 0, -reach}, {middle + reach, 0, reach}};
+        scene.width = 128;
+        scene.height = 4;
+        scene.view = glm::lookAt(glm::vec3(middle, 2.5f, 0), glm::vec3(middle, 0, 0), glm::vec3(0, 0, -1));
+        scene.projection = orthographic(reach, reach * 4 / 128, 0.1f, 4);
+        const Shadowed shadowed = draw(scene, angle);
+        double worst = 0;
+        for (int x = 0; x < shadowed.width; ++x) {
+          const double exact = exact_oblique(glm::dvec3(scene.to_light), shadowed.point(x, 2).x, height, slope);
+          worst = std::max(worst, std::abs(shadowed.visibility(x, 2) - exact));
+        }
+        EXPECT_LE(worst, most) << "sun of " << angle << " degrees at " << elevation << ", " << azimuth
+                               << " to the edge";
+      }
     }
   }
 }
