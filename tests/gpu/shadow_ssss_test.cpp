@@ -113,6 +113,29 @@ TEST_F(ScreenSpace, PenumbraOfAStraightEdgeIsTheExactFunction) {
   }
 }
 
+// Across its diagonals a square sun is wider: where little is hidden, that is one of its corners.
+TEST_F(ScreenSpace, PenumbraOfASquareSunReachesToItsCorners) {
+  params_->set("sun.shape", std::string("square"));
+  const Edge edge = framed(5);
+  const double radius = slope * 5, half_root = std::sqrt(0.5);
+  TriangleScene scene;
+  scene.add_quad({-edge.reach, 0, -edge.reach}, {0, 0, 2 * edge.reach}, {2 * edge.reach, 0, 0});
+  scene.add_quad({-60, 5, 60}, {120, 0, -120}, {-60, 0, -60});
+  scene.receivers = shadow::Box{{-edge.reach, 0, -edge.reach}, {edge.reach, 0, edge.reach}};
+  scene.width = scene.height = edge.side;
+  edge.look_down(scene);
+  int corner = 0;
+  const double worst = worst_error(mean(scene), [&](const glm::dvec3& point) {
+    if (std::max(std::abs(point.x), std::abs(point.z)) > 1.05 * radius) return -1.0;
+    const double t = half_root * (point.x + point.z) / radius;  // from the edge
+    const double left = std::max(2 * half_root - std::abs(t), 0.0);
+    corner += t > 1.05 && left > 0 ? 1 : 0;
+    return t > 0 ? 1 - 0.25 * left * left : 0.25 * left * left;
+  });
+  EXPECT_GT(corner, 30);
+  EXPECT_LE(worst, 0.03);
+}
+
 TEST_F(ScreenSpace, WhatIsOutsideOfThePenumbraIsExactlyLitOrDark) {
   const Edge edge = framed(5);
   const Shadowed shadowed = renderer_->render(edge.scene(), *params_);
