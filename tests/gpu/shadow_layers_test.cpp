@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gpu/exact_penumbra.h"
 #include "gpu/triangle_scene.h"
 
 namespace penumbra::test {
@@ -111,6 +112,61 @@ TEST_F(ShadowLayers, NoLightPassesAWallBetweenAHighAndALowRoof) {
       SCOPED_TRACE(fmt::format("{} layers, {} rows", layers, height));
       params.set("maps.layers", layers);
       EXPECT_LT(std::ranges::max(renderer_->render(scene, params).visibilities()), 0.01f);
+    }
+  }
+}
+
+// A half-plane at 1 m to the one or the other side of an edge, which a strip at 4 m hides from the sun at the zenith.
+struct HiddenEdge {
+  float x = 0;
+  float side = -1;                       // of the half-plane: to that side along x
+  static constexpr float strip = 0.18f;  // to both sides of the edge, beyond what the light shows of lower surfaces
+
+  TriangleScene scene() const {
+    TriangleScene scene = ground_from_above(16);
+    scene.add_quad({side < 0 ? -12 : x, low, -12}, {0, 0, 24}, {side < 0 ? 12 + x : 12 - x, 0, 0});
+    scene.add_quad({x - strip, high, -12}, {0, 0, 24}, {2 * strip, 0, 0});
+    return scene;
+  }
+  // Below the side without the half-plane: it hides the sun's disc up to `of_low`, and the strip from `from` to `to`.
+  double exact(double at) const {
+    const double radius = std::tan(glm::radians(static_cast<double>(angle)) / 2), away = (x - at) * side;
+    const double of_low = -away / (radius * low);
+    const double from = (-strip - away) / (radius * high), to = (strip - away) / (radius * high);
+    return of_low < from ? 1 - exact_disc(of_low) - exact_disc(to) + exact_disc(from)
+                         : 1 - exact_disc(std::max(of_low, to));
+  }
+};
+
+// A pyramid finds where the second layer ends in blocks of texels. Here that is between two blocks, or within one.
+TEST_F(ShadowLayers, TilesBesideAnEdgeOfTheSecondLayerReadIt) {
+  ParamSet params = renderer_->params();
+  params.set("technique", std::string("slices"));
+  params.set("sun.angle", angle);
+  params.set("maps.layers", 2);
+  params.set("cascades.count", 1);
+  params.set("cascades.size", 1024);
+  for (const char* name : {"slices.azimuths", "slices.samples"}) params.set(name, 32);
+  for (const float side : {-1.0f, 1.0f}) {
+    const auto draw = [&](const HiddenEdge& edge) {
+      return renderer_->render(edge.scene(), params, [](shadow::Inputs& inputs) { inputs.view.cut = true; });
+    };
+    draw({.side = side});
+    const shadow::Cascades cascades = renderer_->mask().lights[0].projection.cascades();
+    const double texel = cascades.texel(0).x;
+    const double origin = cascades.anchor.x + cascades.items[0].center.x - cascades.items[0].half_extent.x;
+    const double between = origin + 8 * std::round(-origin / texel / 8) * texel;
+    for (const int texels : {0, 3, 4}) {
+      const HiddenEdge edge{.x = static_cast<float>(between + texels * texel), .side = side};
+      const Shadowed shadowed = draw(edge);
+      for (int x = 0; x < shadowed.width; ++x) {
+        const double at = shadowed.point(x, 8).x, away = (edge.x - at) * side;
+        if (away < 0 || away > 0.06) continue;
+        double mean = 0;
+        for (int y = 0; y < shadowed.height; ++y) mean += static_cast<double>(shadowed.visibility(x, y)) / 16;
+        EXPECT_NEAR(mean, edge.exact(at), 0.01)
+            << side << ", " << texels << " texels, " << away << " m beside the edge";
+      }
     }
   }
 }
