@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
 #include <vector>
 
+#include "gpu/exact_penumbra.h"
 #include "gpu/triangle_scene.h"
 
 namespace penumbra::test {
@@ -155,6 +157,42 @@ TEST_F(ShadowCorner, HardShadowsDoNotDependOnTheSunsAngle) {
     int differ = 0;
     for (size_t i = 0; i < narrow.mask.size(); i += 4) differ += std::abs(narrow.mask[i] - wide.mask[i]) > 0.5f ? 1 : 0;
     EXPECT_LE(differ, 320 * 180 / 1000) << named.name;
+  }
+}
+
+// A ground that meets a face at x = 0, which rises by so much per metre to a height of 2 m, under a sun at the zenith.
+Shadowed below_a_face(TriangleRenderer& renderer, float rise) {
+  TriangleScene scene;
+  scene.add_quad({-2, 0, -2}, {0, 0, 4}, {2, 0, 0});
+  scene.add_quad({0, 0, -2}, {0, 0, 4}, {2 / rise, 2, 0});
+  scene.width = 128;
+  scene.height = 16;
+  scene.view = glm::lookAt(glm::vec3(-0.1f, 1, 0), glm::vec3(-0.1f, 0, 0), glm::vec3(0, 0, -1));
+  scene.projection = orthographic(0.1f, 0.1f * 16 / 128, 0.1f, 2);
+  ParamSet params = renderer.params();
+  params.set("technique", std::string("slices"));
+  params.set("sun.angle", 8.0f);
+  params.set("cascades.count", 1);
+  params.set("cascades.size", 256);
+  params.set("slices.azimuths", 32);
+  params.set("slices.samples", 32);
+  return renderer.render(scene, params);
+}
+
+// Whether a face hides a part of the light: only if it is steeper than the light's cone, which rises by 14.3 m per
+// metre.
+TEST_F(ShadowCorner, FacesBesideAReceiverHideWhatTheyRiseAbove) {
+  const double slope = std::tan(glm::radians(4.0));
+  for (const float rise : {2.0f, 8.0f, 30.0f}) {
+    const Shadowed shadowed = below_a_face(*renderer_, rise);
+    for (int x = 0; x < shadowed.width; ++x) {
+      double mean = 0;
+      const double away = -shadowed.point(x, 8).x;
+      if (away < 0.004) continue;  // a small part of a texel
+      for (int y = 0; y < shadowed.height; ++y)
+        mean += static_cast<double>(shadowed.visibility(x, y)) / shadowed.height;
+      EXPECT_NEAR(mean, exact_disc((1.0 / rise + away / 2) / slope), 0.03) << rise << ", " << away << " m away";
+    }
   }
 }
 
