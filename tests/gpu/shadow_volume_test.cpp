@@ -237,6 +237,37 @@ TEST_F(ShadowVolume, AFanOfSliversCastsAShadowWithoutHoles) {
   EXPECT_EQ(lit_pixels, 0);
 }
 
+// Over each pixel's centre two triangles meet, as near as floats can tell. Their common edge has its ends in the same
+// order, in the opposite one, or is another one of the three.
+TEST_F(ShadowVolume, EdgesAboveCentresOfPixelsLeaveNoGap) {
+  constexpr int side = 32;
+  constexpr float pixel = 4.0f / side;
+  TriangleScene scene;
+  scene.add_quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4});
+  for (int i = 0; i < side * side; ++i) {
+    const int row = i / side;
+    const glm::vec3 centre(-2 + pixel * (static_cast<float>(i % side) + 0.5f), 1,
+                           2 - pixel * (static_cast<float>(row) + 0.5f));
+    const float angle = 2.4f * static_cast<float>(i);
+    const glm::vec3 along = pixel * glm::vec3(std::cos(angle), 0, std::sin(angle));
+    const glm::vec3 across(-along.z, 0, along.x);
+    const glm::vec3 from = centre - 0.3f * along, to = centre + 0.37f * along;
+    scene.triangles.push_back({from, to, centre + 0.4f * across});
+    const glm::vec3 other = centre - 0.35f * across;
+    scene.triangles.push_back(i % 3 == 0   ? Triangle{from, to, other}
+                              : i % 3 == 1 ? Triangle{to, from, other}
+                                           : Triangle{to, other, from});
+  }
+  scene.width = scene.height = side;
+  scene.view = glm::lookAt(glm::vec3(0, 0.5f, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+  scene.projection = orthographic(2, 2, 0.05f, 5);
+  scene.to_light = {0, 1, 0};
+  const Shadowed shadowed = draw(scene);
+  int lit_pixels = 0;
+  for (const float visibility : shadowed.visibilities()) lit_pixels += visibility > 0 ? 1 : 0;
+  EXPECT_EQ(lit_pixels, 0);
+}
+
 // A lamp 1 cm behind a wall: what its rays cross nearer than lamps.near does not shadow, however large the triangle is.
 TEST_F(ShadowVolume, WhatIsNearerToALampThanItsNearPlaneCastsNoShadow) {
   TriangleScene scene = ground();
