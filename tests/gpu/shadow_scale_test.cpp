@@ -134,6 +134,38 @@ TEST_F(ShadowScale, ThePixelsBetweenAreNearTheFullMask) {
   }
 }
 
+// Where computed pixels differ by more than a quarter there is an edge between them, and those between are computed
+// too.
+TEST_F(ShadowScale, PixelsBetweenOnesThatDifferMuchAreThoseOfTheFullMask) {
+  const TriangleScene scene = box_on_ground(240, 159);
+  params.set("sun.angle", 12.0f);
+  const Shadowed full = render(scene, 1);
+  for (const int scale : {2, 3, 4}) {
+    const Shadowed scaled = render(scene, scale);
+    int between = 0, apart = 0;
+    for (int y = 0; y + scale < scene.height; ++y) {
+      for (int x = 0; x + scale < scene.width; ++x) {
+        const int left = x / scale * scale, low = y / scale * scale;
+        if (left == x || low == y) continue;  // two of the four say all
+        float least = 1, most = 0;
+        bool on_ground = true;
+        for (const glm::ivec2 at :
+             {glm::ivec2(left, low), {left + scale, low}, {left, low + scale}, {left + scale, low + scale}}) {
+          on_ground = on_ground && std::abs(full.point(at.x, at.y).y) < 1e-3f;
+          least = std::min(least, full.visibility(at.x, at.y));
+          most = std::max(most, full.visibility(at.x, at.y));
+        }
+        on_ground = on_ground && std::abs(full.point(x, y).y) < 1e-3f;
+        if (!on_ground || most - least < 0.26f) continue;
+        ++between;
+        apart += scaled.visibility(x, y) != full.visibility(x, y) ? 1 : 0;
+      }
+    }
+    EXPECT_GT(between, 40) << scale;
+    EXPECT_EQ(apart, 0) << scale;
+  }
+}
+
 // There is nothing to interpolate with on their other side.
 TEST_F(ShadowScale, PixelsBeyondTheLastComputedOnesAreThoseOfTheFullMask) {
   // Slats askew above the camera, whose shadows cross the ends of rows and columns.
