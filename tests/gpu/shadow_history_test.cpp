@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "gpu/gpu_test.h"
 #include "gpu/triangle_scene.h"
@@ -224,6 +227,48 @@ TEST_F(ShadowHistory, ASurfaceThatIsTurnedIsAnotherOne) {
   };
   EXPECT_EQ(refusal_after(60), HISTORY_OTHER_SURFACE);
   EXPECT_EQ(refusal_after(1), HISTORY_KEPT);
+}
+
+// Maps that are fitted to what the view shows turn about the light with it: normals are kept in axes that do not.
+TEST_F(ShadowHistory, ASurfaceIsTheSameWhenMapsTurn) {
+  ParamSet params = renderer_->params();
+  params.set("history.reuse", true);
+  params.set("cascades.fit", std::string("visible"));
+  params.set("cascades.size", 256);
+  params.set("history.turn", 2.0f);  // degrees
+  TriangleScene scene = box_on_ground(48);
+  scene.triangles.resize(2);
+  scene.to_light = sun_direction(30, 20);
+  scene.receivers = scene.casters = shadow::Box{{-5, 0, -5}, {5, 1, 5}};
+  std::optional<glm::mat4> last_view;
+  double least = 10, most = -10;
+  for (int frame = 0; frame < 6; ++frame) {
+    const float yaw = 0.12f * static_cast<float>(frame);
+    scene.view = glm::lookAt(glm::vec3(0, 3, 0), glm::vec3(std::sin(yaw), 2, -2 * std::cos(yaw)), glm::vec3(0, 1, 0));
+    scene.projection = perspective(0.5f, 1, 0.1f);
+    const Shadowed shadowed = renderer_->render(scene, params, [&](shadow::Inputs& inputs) {
+      inputs.moved = shadow::Box{glm::vec3(1), glm::vec3(-1)};  // no caster
+      inputs.view.last_view = last_view.value_or(inputs.view.view);
+      inputs.view.last_projection = inputs.view.projection;
+      inputs.view.cut = !last_view;
+    });
+    const double turn = renderer_->mask().lights[0].projection.cascades().turn;
+    least = std::min(least, turn);
+    most = std::max(most, turn);
+    const std::vector<unsigned> notes = gl::read_uints(*renderer_->mask().lights[0].notes, 1);
+    int other = 0, kept = 0;
+    for (std::size_t i = 0; i < notes.size(); ++i) {
+      if (shadowed.depth[i] == shadowed.sky_depth) continue;
+      other += glsl::notes_refusal(notes[i]) == HISTORY_OTHER_SURFACE ? 1 : 0;
+      kept += glsl::notes_refusal(notes[i]) == HISTORY_KEPT ? 1 : 0;
+    }
+    EXPECT_EQ(other, 0) << frame;
+    if (last_view) {
+      EXPECT_GT(kept, 500) << frame;
+    }
+    last_view = scene.view;
+  }
+  EXPECT_GT(most - least, glm::radians(3.0)) << "the maps did not turn";
 }
 
 TEST_F(ShadowHistory, ItsMemoryIsGivenBack) {
