@@ -131,6 +131,47 @@ TEST_F(ShadowVisible, ConventionsAndViewportsChangeNothing) {
   expect_same("depths that are no numbers");
 }
 
+// A ground that the view shows for 200 m.
+TEST_F(ShadowVisible, CascadesEndAtTheirDistance) {
+  TriangleScene scene = small_in_large();
+  scene.triangles.clear();
+  scene.add_quad({-100, 0, 10}, {200, 0, 0}, {0, 0, -210});
+  scene.view = glm::lookAt(glm::vec3(0, 2, 0), glm::vec3(0, 0, -8), glm::vec3(0, 1, 0));
+  ParamSet near = params();
+  const Shadowed picture = renderer_->render(scene, near);
+  EXPECT_LE(excess_width(shown(picture)), 1.15);
+  near.set("cascades.distance", 20.0f);
+  renderer_->render(scene, near);
+  shadow::LightBounds bounds;
+  for (const glm::vec3& point : picture.points) {
+    if (-(scene.view * glm::vec4(point, 1)).z > 20 || point.y < -1 || point.y > 1) continue;
+    const glm::dvec3 place = cascades().world_to_light * (glm::dvec3(point) - cascades().anchor);
+    bounds = {glm::min(bounds.low, place), glm::max(bounds.high, place)};
+  }
+  EXPECT_LE(excess_width(bounds), 1.25);
+}
+
+// An orthographic view may show what lies behind its camera: distances count from the nearest receiver.
+TEST_F(ShadowVisible, AnOrthographicCameraMayBeAmongWhatItShows) {
+  TriangleScene scene = small_in_large();
+  scene.triangles.clear();
+  scene.add_quad({-100, 0, 100}, {200, 0, 0}, {0, 0, -200});
+  std::vector<glm::vec2> expected;  // half widths of cascades
+  for (const float forwards : {0.0f, 30.0f, 55.0f}) {
+    const glm::vec3 way = glm::normalize(glm::vec3(0, -2, -8)), eye = glm::vec3(0, 10, 40) + forwards * way;
+    scene.view = glm::lookAt(eye, eye + way, glm::vec3(0, 1, 0));
+    scene.projection = orthographic(8, 8, -forwards, 100 - forwards);
+    EXPECT_LE(excess_width(shown(renderer_->render(scene, params()))), 1.15) << forwards;
+    std::vector<glm::vec2> found;
+    for (const shadow::Cascade& cascade : cascades().items) found.push_back(cascade.half_extent);
+    if (forwards == 0) expected = found;
+    ASSERT_GT(found.size(), 1u);
+    ASSERT_EQ(found.size(), expected.size()) << forwards;
+    for (std::size_t i = 0; i < found.size(); ++i)
+      EXPECT_LT(glm::length(found[i] - expected[i]), 0.01f * expected[i].x) << forwards << ", cascade " << i;
+  }
+}
+
 TEST_F(ShadowVisible, AViewOfTheSkyIsDrawn) {
   TriangleScene scene = small_in_large();
   scene.view = glm::mat4(1);
