@@ -160,6 +160,57 @@ TEST_F(ShadowHistory, FollowsReceiversByTheirMotion) {
   EXPECT_GT(off_by_motion(*renderer_, -3), 0.06);
 }
 
+// The camera moves by three pixels after four frames, so that three columns of the picture have a history of one frame
+// less than the others, then back by half a pixel. Then the half-plane has moved, of which the history is not told: how
+// much of the change a pixel shows is the weight of the present frame.
+TEST_F(ShadowHistory, AMeanCountsTheFramesOfTheYoungestPixelThatItReads) {
+  constexpr int side = 64;
+  constexpr float half = 0.3f, step = 2 * half / side;
+  ParamSet plain = renderer_->params();
+  plain.set("sun.angle", 8.0f);
+  plain.set("pcss.blocker_taps", 64);
+  plain.set("pcss.filter_taps", 64);
+  plain.set("sampling.noise", std::string("none"));
+  plain.set("movement.map", std::string("none"));
+  ParamSet blended = plain;
+  blended.set("history.reuse", true);
+  blended.set("history.mean", true);
+  blended.set("history.alpha", 0.05f);
+  std::optional<glm::mat4> last_view;
+  const auto draw = [&](const ParamSet& params, float pixels, bool moved, bool cut) {
+    TriangleScene scene = wide_penumbra();
+    scene.projection = orthographic(half, half, 0.05f, 5);
+    scene.view = glm::translate(glm::mat4(1), glm::vec3(-pixels * step, 0, 0)) * scene.view;
+    if (moved) {
+      for (std::size_t i = 2; i < scene.triangles.size(); ++i) {
+        for (glm::vec3* corner : {&scene.triangles[i].a, &scene.triangles[i].b, &scene.triangles[i].c})
+          corner->x += 0.1f;
+      }
+    }
+    Shadowed shadowed = renderer_->render(scene, params, [&](shadow::Inputs& inputs) {
+      inputs.moved = shadow::Box{glm::vec3(1), glm::vec3(-1)};
+      inputs.view.last_view = last_view.value_or(inputs.view.view);
+      inputs.view.last_projection = inputs.view.projection;
+      inputs.view.cut = cut;
+    });
+    last_view = scene.view;
+    return shadowed;
+  };
+  const Shadowed before = draw(plain, 2.5f, false, true), after = draw(plain, 2.5f, true, true);
+  for (int frame = 0; frame < 4; ++frame) draw(blended, 0, false, frame == 0);
+  draw(blended, 3, false, false);
+  const Shadowed blend = draw(blended, 2.5f, true, false);
+  constexpr int first_new = side - 3;  // the first column that has two frames, or reads one that has
+  for (int x = 20; x < side; ++x) {    // where the half-plane changes much
+    double weight = 0;
+    for (int y = 8; y < side - 8; ++y) {
+      const double change = after.visibility(x, y) - before.visibility(x, y);
+      weight += (blend.visibility(x, y) - before.visibility(x, y)) / change / (side - 16);
+    }
+    EXPECT_NEAR(weight, x < first_new ? 1.0 / 6 : 1.0 / 2, 0.08) << "column " << x;
+  }
+}
+
 // The maps of the last frame, passed in as maps that an engine has drawn.
 shadow::FinishedMaps finished(const shadow::LightFrame& light, const gl::Texture& copy) {
   gl::glCopyImageSubData(light.depth, GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, copy.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0,
