@@ -196,5 +196,56 @@ TEST_F(ShadowCorner, FacesBesideAReceiverHideWhatTheyRiseAbove) {
   }
 }
 
+// Hard shadows in a square of ground of 0.6 m, from straight above.
+Shadowed hard_shadows(TriangleRenderer& renderer, TriangleScene scene, float camera) {
+  scene.width = scene.height = 64;
+  scene.view = glm::lookAt(glm::vec3(0, camera, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+  scene.projection = orthographic(0.3f, 0.3f, 0.001f, camera + 1);
+  ParamSet params = renderer.params();
+  params.set("technique", std::string("hard"));
+  params.set("mask.tiles", false);
+  params.set("cascades.count", 1);
+  params.set("cascades.size", 64);
+  return renderer.render(scene, params);
+}
+
+// A slab so low above the ground that, under a low sun, some of its texels lie deeper than the receivers below it.
+TEST_F(ShadowCorner, LowSlabsHideWhatIsBelow) {
+  TriangleScene ground;
+  ground.add_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0});
+  for (const float azimuth : {0.0f, 30.0f, 45.0f}) {
+    ground.to_light = sun_direction(azimuth, 25);
+    hard_shadows(*renderer_, ground, 1);
+    const float texel = renderer_->mask().lights[0].projection.cascades().texel(0).x;
+    for (const float height : {0.5f, 1.0f, 2.0f, 3.0f, 4.0f}) {
+      TriangleScene scene = ground;
+      scene.add_quad({-2, height * texel, -2}, {0, 0, 4}, {4, 0, 0});
+      int lit = 0;
+      for (const float visibility : hard_shadows(*renderer_, scene, 0.5f * height * texel).visibilities())
+        lit += visibility > 0 ? 1 : 0;
+      EXPECT_EQ(lit, 0) << azimuth << ", " << height << " texels";
+    }
+  }
+}
+
+// Two faces rise from a strip of ground that is narrower than a texel, aslant in the map: around the strip all texels
+// lie before it, but they do not show one surface, which would cover it. All is lit but for a few pixels.
+TEST_F(ShadowCorner, GroovesNarrowerThanATexelAreLit) {
+  int dark = 0;
+  for (const float azimuth : {20.0f, 45.0f, 70.0f}) {
+    for (const float elevation : {25.0f, 45.0f}) {
+      for (const float rise : {0.25f, 0.4f}) {
+        TriangleScene scene;
+        scene.to_light = sun_direction(azimuth, elevation);
+        scene.add_quad({-2, 0, 0.003f}, {4, 0, 0}, {0, 0, 0.006f});
+        scene.add_quad({-2, 0, 0.009f}, {4, 0, 0}, {0, rise, 1});
+        scene.add_quad({-2, 0, 0.003f}, {4, 0, 0}, {0, rise, -1});
+        for (const float visibility : hard_shadows(*renderer_, scene, 3).visibilities()) dark += visibility < 1 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_LE(dark, 80) << "of 12 pictures, with 64 pixels of each groove";
+}
+
 }  // namespace
 }  // namespace penumbra::test
