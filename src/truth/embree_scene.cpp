@@ -245,7 +245,14 @@ void EmbreeSceneBuilder::add_shared(const Surfaces& copies) {
   add(object.get(), at_rest, glm::dvec3(0));
   rtcCommitScene(object.get());
   check();
+  double furthest = 0;
+  for (const glm::vec3& position : at_rest.positions) {
+    if (near_enough(position)) furthest = std::max(furthest, static_cast<double>(glm::length(position)));
+  }
   for (const scene::PosedSurface* surface : copies) {
+    const glm::dmat3 turn(surface->world);
+    const double scale = std::max({glm::length(turn[0]), glm::length(turn[1]), glm::length(turn[2])});
+    out_.shared_extent_ = std::max(out_.shared_extent_, scale * furthest);
     glm::mat4 world = surface->world;
     world[3] = glm::vec4(glm::dvec3(world[3]) - out_.origin_, 1.0);
     const EmbreeGeometry instance(rtcNewGeometry(out_.device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));

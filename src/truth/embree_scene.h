@@ -47,8 +47,9 @@ class EmbreeScene {
   RTCScene get() const { return top_.get(); }
   // Rays are relative to this point (world space), so that a scene far from the world's origin loses no precision.
   const glm::dvec3& origin() const { return origin_; }
-  // Metres from the origin to the furthest point of a scene with instanced triangles; 0 without instances. Rays are
-  // transformed to the space of an instance, with a rounding error that grows with this distance.
+  // Metres from the origin to the furthest point of a scene with instanced triangles, or of these from the origin of
+  // their own space if that is further; 0 without instances. Rays are transformed to the space of an instance, with a
+  // rounding error that grows with this distance.
   double shared_extent() const { return shared_extent_; }
   const BuildStats& stats() const { return stats_; }
 

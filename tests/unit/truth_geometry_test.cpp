@@ -340,7 +340,8 @@ TEST(TruthGeometry, SharedTrianglesHaveNoAcne) {
 // Rays are transformed to the space of each ball, whose vertices are far from that space's own origin.
 TEST(TruthGeometry, SharedTrianglesFarFromTheirOriginHaveNoAcne) {
   const TracedSun sun{.to_light = glm::normalize(glm::dvec3(0.5, 0.6, -0.4)), .angle = glm::radians(3.0)};
-  for (const auto& [away, apart] : {std::pair(0.0f, 200.0f), {1000.0f, 200.0f}, {10000.0f, 20000.0f}}) {
+  for (const auto& [away, apart] :
+       {std::pair(0.0f, 200.0f), {1000.0f, 200.0f}, {10000.0f, 200.0f}, {10000.0f, 20000.0f}}) {
     TruthScene scene;
     scene::Primitive& ball = add_ball(scene, 40, 30);
     for (glm::vec3& p : ball.positions) p.x += away;

@@ -92,11 +92,11 @@ struct Stretch {
 
 // The last sample of a layer, if it blocks.
 struct Blocker {
-  float hidden_to;  // share of the rim's radius up to which it hides rays; `beyond_rim`: it does not block
-  float height, at;
+  float hidden_to;   // share of the rim's radius up to which it hides rays
+  float height, at;  // metres; far below all others if it does not block
 };
 
-const Blocker no_blocker = Blocker(beyond_rim, 0.0, 0.0);
+const Blocker no_blocker = Blocker(beyond_rim, -1e30, 0.0);
 
 // Whether the material of a blocker is taken to go on to the next one on the line. It always is where the second layer
 // is not read, since what lies below a higher blocker can't be seen then. Else `below` is the second layer's blocker at
@@ -107,7 +107,7 @@ bool goes_on(Blocker before, Blocker below, float height, float at, Receiver rec
   if (!READS_SECOND_LAYER) return true;
   const float steepest = 4.0;
   float most = steepest * cone_slope(receiver, light) * (at - before.at);
-  bool lower_goes_on = below.hidden_to < beyond_rim && below.height >= height - most;
+  bool lower_goes_on = below.height >= height - most;
   return before.height - height <= most || !lower_goes_on;
 }
 
