@@ -227,7 +227,7 @@ class Pages(unittest.TestCase):
         two = {name: of[1] for name, of in figures["`courtyard` 2°"].items()}
         page = text_of("README.md")
         self.assertIn(f"`slices_denoised` has a PSNR of {two['`slices_denoised`']} dB", page)
-        self.assertIn(f"and of {two['as `render` draws']} dB as `render` draws it", page)
+        self.assertIn(f"`render` without `--technique` reaches {two['as `render` draws']} dB", page)
         self.assertIn(f"have {two['`pcss` 16/16']} dB with the same maps as the {two['`slices_denoised`']}", page)
         self.assertIn(f"(`brute_force`) {two['`brute_force`']} dB.", page)
         half = {name: of[0] for name, of in figures["`courtyard` 0.53°"].items()}
