@@ -14,7 +14,7 @@ constexpr double dot_radius = 3.2;
 constexpr double name_gap = 10, sample_length = 24;
 constexpr double name_step = 1.25 * font_size, most_name = 260;
 constexpr std::size_t colours = 8;  // .line-0 to .line-7 in page.css
-constexpr std::size_t dashes = 4;   // .dash-1 to .dash-3, and lines without
+constexpr std::size_t dashes = 5;   // .dash-1 to .dash-4, and lines without
 
 // The label of a line, at the height of the line's end.
 struct Name {

@@ -66,7 +66,8 @@ bool is_finite(float value) { return std::isfinite(value); }
 bool is_finite(const glm::vec3& value) { return is_finite(value.x) && is_finite(value.y) && is_finite(value.z); }
 
 // What `edit` returns, whether the user changed the value. Where that gives no finite number the value stays as it was:
-// Dear ImGui takes + * / before what is typed as operators on the old value, and no limit stops a NaN.
+// Dear ImGui takes + * / before what is typed as operators on the old value, and its limits stop infinity but not a
+// NaN.
 template <typename Value, typename Edit>
 bool edit_finite(Value& value, const Edit& edit) {
   const Value before = value;

@@ -18,7 +18,8 @@ namespace penumbra::viewer {
 void mark_field(WidgetMap& widgets, std::string_view name, const std::string& text, float room);
 
 // As ImGui::SliderFloat() and so on, but that a slider's value stands beside it, as "NAME value" of the layout. They
-// return whether the user changed the value. What is typed and gives no finite number changes nothing.
+// return whether the user changed the value. What is typed and gives no number changes nothing; an infinite one
+// gives the limit, or nothing where there is none.
 bool slider(WidgetMap& widgets, const std::string& name, float& value, float least, float most, const char* format,
             ImGuiSliderFlags flags = 0);
 bool slider(WidgetMap& widgets, const std::string& name, int& value, int least, int most, const char* format = "%d",

@@ -213,7 +213,8 @@ std::optional<SceneLoader::Loaded> Viewer::finished_scene() {
     if (loaded || !loader_.file().empty()) status_.load_error.clear();
     return loaded;
   } catch (const std::exception& error) {
-    status_.load_error = failed_load_ = error.what();
+    status_.load_error = error.what();
+    failed_loads_.emplace_back(error.what());
     throw;
   }
 }
@@ -225,7 +226,7 @@ void Viewer::take_loaded() {
     std::optional<SceneLoader::Loaded> loaded = finished_scene();
     status_.loading = loader_.file().empty() ? "" : std::filesystem::path(loader_.file()).filename().string();
     if (!loaded) return;
-    withdraw(state_, std::exchange(failed_load_, {}));
+    for (const std::string& error : std::exchange(failed_loads_, {})) withdraw(state_, error);
     cli::SceneOptions& options = state_.document.options;
     const bool is_first = scene_ == nullptr, is_other = options.scene != loaded->options.scene;
     if (is_other && changed_while_loading()) {

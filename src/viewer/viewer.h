@@ -190,7 +190,7 @@ class Viewer {
   render::Renderer renderer_;
   std::unique_ptr<LoadedScene> scene_;
   SceneLoader loader_;
-  std::string failed_load_;                  // why the last scene could not be read, until one has been read
+  std::vector<std::string> failed_loads_;    // why scenes could not be read, until one has been read
   std::optional<session::FileWatch> watch_;  // absent if the system's limit of watches is reached
   RenderProcess writer_;
   UiState state_;

@@ -208,7 +208,7 @@ def main():
     if report:
         suite = ElementTree.Element("testsuite")
         for name, outcome in result.outcomes.items():
-            case = ElementTree.SubElement(suite, "testcase", name=name, time=f"{result.seconds[name]:.3f}")
+            case = ElementTree.SubElement(suite, "testcase", name=name, time=f"{result.seconds.get(name, 0):.3f}")
             if outcome:
                 ElementTree.SubElement(case, outcome)
         ElementTree.ElementTree(suite).write(report)

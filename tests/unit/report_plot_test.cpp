@@ -129,7 +129,7 @@ TEST(ReportPlot, FortyLinesCanBeToldApartAndHaveTheirNamesWithinThePlot) {
   static const std::regex name("<text class='label name ([^']*)'");
   std::set<std::string> looks;
   for (std::sregex_iterator i(svg.begin(), svg.end(), name), end; i != end; ++i) looks.insert((*i)[1]);
-  EXPECT_EQ(looks.size(), 32u) << "8 colours with 4 patterns each";
+  EXPECT_EQ(looks.size(), 40u) << "8 colours with 5 patterns each";
 }
 
 TEST(ReportPlot, ALabelWithoutRoomLosesItsMiddleAndATooltipHasAllOfIt) {
