@@ -102,12 +102,12 @@ const Blocker no_blocker = Blocker(beyond_rim, -1e30, 0.0);
 // is not read, since what lies below a higher blocker can't be seen then. Else `below` is the second layer's blocker at
 // the sample before: where it shows that the lower surface goes on there, below a higher one that ends this many times
 // more steeply than the light's cone, the two are separate. A wall that joins them, along which the light looks, has
-// no such surface below it.
+// no such surface below it, nor has the inner face of the higher one.
 bool goes_on(Blocker before, Blocker below, float height, float at, Receiver receiver, Light light) {
   if (!READS_SECOND_LAYER) return true;
   const float steepest = 4.0;
   float most = steepest * cone_slope(receiver, light) * (at - before.at);
-  bool lower_goes_on = below.height >= height - most;
+  bool lower_goes_on = abs(below.height - height) <= most;
   return before.height - height <= most || !lower_goes_on;
 }
 
