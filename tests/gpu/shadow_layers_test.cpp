@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gpu/exact_penumbra.h"
@@ -96,11 +97,13 @@ TEST_F(ShadowLayers, TilesBelowWhichCastersOverlapReadBoth) {
 }
 
 // A roof, a lower one beside it, and the wall between them, along which the light looks, so that no layer shows it: all
-// light that passes the high roof's edge meets the wall.
+// light that passes the high roof's edge meets the wall. The second layer shows the ground below the high roof, or the
+// roof's inner face.
 TEST_F(ShadowLayers, NoLightPassesAWallBetweenAHighAndALowRoof) {
-  constexpr float edge = 0.1f;
-  for (const int height : {4, 16}) {
+  constexpr float edge = 0.1f, thickness = 0.05f;
+  for (const auto& [height, thick] : {std::pair(4, false), {16, false}, {4, true}, {16, true}}) {
     TriangleScene scene = ground_from_above(height);
+    if (thick) scene.add_quad({-12, high - thickness, -12}, {0, 0, 24}, {12 + edge, 0, 0});
     scene.add_quad({-12, high, -12}, {0, 0, 24}, {12 + edge, 0, 0});
     scene.add_quad({edge, low, -12}, {0, 0, 24}, {0, high - low, 0});
     scene.add_quad({edge, low, -12}, {0, 0, 24}, {12 - edge, 0, 0});
@@ -109,7 +112,7 @@ TEST_F(ShadowLayers, NoLightPassesAWallBetweenAHighAndALowRoof) {
     params.set("sun.angle", angle);
     params.set("cascades.size", 1024);
     for (const int layers : {1, 2}) {
-      SCOPED_TRACE(fmt::format("{} layers, {} rows", layers, height));
+      SCOPED_TRACE(fmt::format("{} layers, {} rows, thick: {}", layers, height, thick));
       params.set("maps.layers", layers);
       EXPECT_LT(std::ranges::max(renderer_->render(scene, params).visibilities()), 0.01f);
     }

@@ -107,8 +107,9 @@ bool goes_on(Blocker before, Blocker below, float height, float at, Receiver rec
   if (!READS_SECOND_LAYER) return true;
   const float steepest = 4.0;
   float most = steepest * cone_slope(receiver, light) * (at - before.at);
-  bool lower_goes_on = abs(below.height - height) <= most;
-  return before.height - height <= most || !lower_goes_on;
+  float falls = before.height - height;
+  bool lower_goes_on = abs(below.height - height) <= min(most, 0.5 * falls);
+  return falls <= most || !lower_goes_on;
 }
 
 // Adds the rays that a texel of that depth hides to `rings`, if it is nearer to the light than `blocking`; `before`:
