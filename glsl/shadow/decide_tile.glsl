@@ -182,7 +182,7 @@ const float read_margin = 8.0;
 
 // Whether a receiver of the hull may read texels beyond the rim of a map that sees it.
 bool may_read_beyond_rim(Hull hull) {
-  if (!has_faces(frame_light())) return false;
+  if (!reads_beyond_rim) return false;
   for (int left = sights_of(hull); left != 0; left &= left - 1) {
     Box box;
     Light light = frame_light();
@@ -296,7 +296,7 @@ int decide_tile(Pixels pixels, out Decision decision, out float overlap) {
   ivec2 size = pixels.high - pixels.low;
   bool all_decided = bitCount(tile.decided.x) + bitCount(tile.decided.y) == size.x * size.y;
   if (all_decided && !failed) return tile_decided;
-  bool apart = !bounded && has_faces(frame_light()) || may_read_beyond_rim(hull);
+  bool apart = !bounded && reads_beyond_rim || may_read_beyond_rim(hull);
 #if maps_layers == 2
   overlap = bounded ? overlap_in(pixels, hull) : least_overlap;
   apart = apart || overlap > 0.0;

@@ -12,8 +12,6 @@ namespace penumbra::shadow {
 
 namespace {
 
-// Receivers at the edge of a face see blockers through the next one, as far as these are from the lamp.
-constexpr double clear_radii = 2, clear_distance = 0.2;      // metres
 constexpr double texels_beyond = 8;                          // that receivers at the edge read besides
 constexpr double widest_single_map = glm::pi<double>() / 3;  // half angle
 constexpr double most_far_over_near = 2000;  // else 32-bit depths are off by more than 1e-4 of a distance
@@ -103,7 +101,7 @@ LampMaps fit_lamp(const LampInputs& in) {
   maps.count = has_one_map(in.axis, in.cone) ? 1 : cube_faces;
   // A blocker at distance b moves a disc's rim by up to (1 + t²) · radius / b of the tangent t.
   const double rim = maps.count == 1 ? std::tan(in.cone) : 1.0;
-  const double disc = (1 + rim * rim) * in.radius / std::max(clear_radii * in.radius, clear_distance);
+  const double disc = (1 + rim * rim) * in.radius / glsl::clear_distance(static_cast<float>(in.radius));
   maps.tangent = (rim + disc) / (1 - std::min(2 * texels_beyond / in.size, 0.5));
   const double reach = farthest_of(in.receivers, in.position) * 1.001;
   const double far = step_up(in.range > 0 ? std::min(in.range, reach) : reach);

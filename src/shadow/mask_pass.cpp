@@ -121,7 +121,7 @@ void compute_listed(const LightWork& work, const MaskOutput& output, const Tiles
 
 }  // namespace
 
-bool has_rims(const LightWork& work) { return work.frame.shape.lamp && work.frame.projection.layers() > 1; }
+bool has_rims(const LightWork& work) { return work.frame.shape.lamp; }
 
 bool lists_apart(const LightWork& work) { return has_rims(work) || reads_second_layer(work.technique, work.params()); }
 

@@ -1,5 +1,6 @@
 // Where lamps shine and what casts their shadows, what is kept of them, and which are refused.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -73,6 +74,35 @@ TEST_F(LampLimits, ASpotShinesWithinItsConeAlone) {
       lit += tangent < 1 ? 1 : 0;
     }
     EXPECT_GT(lit, 3) << degrees;
+  }
+}
+
+// A half-plane so near a spot that its shadow is wider than the cone: the spot's map ends where it goes on.
+TEST_F(LampLimits, ANearCasterGoesOnBeyondTheRimOfASpotsMap) {
+  const Edge edge{.height = lamp_height - 0.05f, .radius = 0.1f};
+  const Edge everywhere{.height = edge.height, .radius = edge.radius, .x = 4};
+  for (const bool tiles : {true, false}) {
+    for (const char* technique : {"pcss", "slices", "brute_force", "pcf_poisson"}) {
+      SCOPED_TRACE(fmt::format("{}, tiles {}", technique, tiles));
+      ParamSet params = renderer_->params();
+      params.set("technique", std::string(technique));
+      params.set("mask.tiles", tiles);
+      params.set("pcf_poisson.radius", 2.0f);
+      const auto drawn_under = [&](const Edge& caster) {
+        TriangleScene scene = scene_of(caster, 64);
+        scene.height = 64;
+        scene.view = glm::lookAt(glm::vec3(0, 1, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+        scene.projection = orthographic(0.6f, 0.6f, 0.01f, 2);
+        return render(scene, spot(caster.radius, 20), params);
+      };
+      for (const float visibility : drawn_under(everywhere).visibilities()) ASSERT_EQ(visibility, 0);
+      if (std::string(technique) == "pcf_poisson") continue;  // its kernel is not the lamp
+      const Shadowed half = drawn_under(edge);
+      double sum = 0;
+      for (size_t i = 0; i < half.points.size(); ++i)
+        sum += half.mask[4 * i] - exact_disc(edge.place(glm::dvec3(half.points[i])));
+      EXPECT_NEAR(sum / static_cast<double>(half.points.size()), 0, 0.005);
+    }
   }
 }
 

@@ -81,6 +81,15 @@ TEST_F(LampTiles, MissNoPenumbraOfSpotsNorTheEdgeOfTheirCones) {
 }
 
 // Seams of the cube's faces, faded or not, wide or not, and with maps so coarse that two faces show other things.
+TEST_F(LampTiles, DecideMostOfWhatASpotLights) {
+  for (const char* scene : {"posts", "knife_edge"}) {
+    SCOPED_TRACE(scene);
+    load(scene, 320, 180);
+    for (const float cone : {25.0f, 59.0f})
+      EXPECT_GT(expect_none_is_missed(spot_at({0, 40, 0}, 0.05f, {0, 0, 0}, cone)), 0.5) << cone << " degrees";
+  }
+}
+
 TEST_F(LampTiles, MissNoPenumbraWhereFacesMeet) {
   for (const char* seam : {"none", "fade", "dither"}) {
     for (const int size : {128, 1024}) {

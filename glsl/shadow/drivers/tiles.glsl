@@ -3,7 +3,7 @@
 #include "shadow/drivers/decisions.glsl"
 
 // The commands are for the listed tiles in the compute driver, the listed tiles in the fragment driver, and the decided
-// tiles. Tiles whose receivers may read what others do not, beyond the rim of a lamp's face or in the second layer, are
+// tiles. Tiles whose receivers may read what others do not, beyond the rim of a lamp's map or in the second layer, are
 // listed apart, with commands for both drivers. The last two commands are for pixels that are listed one by one, in
 // groups of 64, in compute shaders: those to be computed, and those of them that have noise and are filtered
 // afterwards.

@@ -1,6 +1,6 @@
 // The texels of a layer of the map: where they lie, and what their depths are.
 #ifndef READS_ALL
-#define READS_ALL 1  // 0: no receiver reads beyond the rim of a map that sees it, or the second layer
+#define READS_ALL 1  // 0: no receiver reads beyond the rim of a lamp's map that sees it, or the second layer
 #endif
 #include "shadow/projection/light_space.glsl"
 
@@ -43,11 +43,13 @@ float filtered_difference(float difference, Light light) {
 }
 
 // Beyond the rim of a cube's face the map goes on in the faces there. Their texels lie elsewhere, so that what is read
-// of one is a depth and its own place.
+// of one is a depth and its own place. Beyond the rim of a spot's single map, a caster which the rim shows nearer to the
+// lamp than what the map is wide enough for is taken to go on as it is there.
 
-// Whether there are such faces. A macro, not a function: of a function drivers see that it is false in programs for
-// suns only after they have inlined all that is behind it, wherever a texel is read.
-#define has_faces(light) (READS_ALL != 0 && is_lamp && (light).layers > 1)
+// Whether something is read beyond a rim, and whether in other faces. Macros, not functions: of a function drivers see
+// that it is false in programs for suns only after they have inlined all that is behind it, wherever a texel is read.
+#define reads_beyond_rim (READS_ALL != 0 && is_lamp)
+#define has_faces(light) (reads_beyond_rim && (light).layers > 1)
 
 bool leaves_map(ivec2 low, ivec2 high) {
   return any(lessThan(low, ivec2(0))) || any(greaterThan(high, last_texel()));
@@ -74,20 +76,27 @@ FaceTexel face_texel_at(ivec2 texel, Light light) {
 }
 
 // Its stored depth as the light's layer would store it. Faces store −1 over depths along their own axes.
-float stored_beyond(sampler2DArray map, FaceTexel texel) {
+float stored_in_face(sampler2DArray map, FaceTexel texel) {
   float stored = texelFetch(map, texel.at, 0).x;
   LayerBlock block = shadow.layers[0];
   float along = (block.near_depth + block.depth_range * stored) / texel.seen.z;
   return stored < 1.0 ? (along - block.near_depth) / block.depth_range : 1.0;
 }
 
-// Stored depth in a texel of the light's layer of a map; outside of the map that of the cube's face there, or 1, where
-// there are no casters.
+// Stored depth beyond the rim, of which `at_rim` is the nearest texel's: 1 where there are no casters.
+float stored_beyond(sampler2DArray map, ivec2 texel, float at_rim, Light light) {
+  if (has_faces(light)) return stored_in_face(map, face_texel_at(texel, light));
+  LayerBlock block = shadow.layers[0];
+  float widest = -1.0 / clear_distance(shadow.light_extent);
+  return block.near_depth + block.depth_range * at_rim < widest ? at_rim : 1.0;
+}
+
+// Stored depth in a texel of the light's layer of a map, or beyond its rim.
 float stored_in(sampler2DArray map, ivec2 texel, Light light) {
   ivec2 within = clamp(texel, ivec2(0), last_texel());
-  if (within != texel && has_faces(light)) return stored_beyond(map, face_texel_at(texel, light));
   float stored = texelFetch(map, ivec3(within, light.layer), 0).x;
-  return within == texel ? stored : 1.0;
+  if (within == texel) return stored;
+  return reads_beyond_rim ? stored_beyond(map, texel, stored, light) : 1.0;
 }
 
 float stored_at(ivec2 texel, Light light) { return stored_in(shadow_depth, texel, light); }
@@ -128,8 +137,8 @@ vec2 map_place(vec3 position, Light light) {
 // An offset in texels of the light's layer.
 vec2 map_offset(vec2 offset, Light light) { return offset * (light.map.widths_per_metre * shadow.map_size); }
 
-// Depth in a texel of the light's layer of a map, metres. Outside of the map there are no casters: it is the far
-// plane's there, as where the sampler's border is read.
+// Depth in a texel of the light's layer of a map, or beyond its rim, metres: the far plane's where there are no casters,
+// as where the sampler's border is read.
 float depth_in(sampler2DArray map, ivec2 texel, Light light) {
   return stored_depth(stored_in(map, texel, light), light);
 }
@@ -185,7 +194,7 @@ Offsets footprint_offsets(Receiver receiver, vec2 offset, vec2 weight, Light lig
   return Offsets(vec4(low.x, high.x, high.x, low.x), vec4(high.y, high.y, low.y, low.y));
 }
 
-// Four texels of which some lie beyond the rim of a cube's face.
+// Four texels of which some lie beyond the rim.
 Footprint footprint_beyond(Receiver receiver, ivec2 first, vec2 weight, Light light) {
   Footprint found;
   for (int i = 0; i < 4; ++i) {
@@ -202,7 +211,7 @@ Footprint footprint_beyond(Receiver receiver, ivec2 first, vec2 weight, Light li
 // The texels `first` to first + (1, 1), of which the last lies at a distance of `weight` texels from a point at that
 // offset.
 Footprint footprint_from(Receiver receiver, ivec2 first, vec2 offset, vec2 weight, Light light) {
-  if (has_faces(light) && leaves_map(first, first + 1)) return footprint_beyond(receiver, first, weight, light);
+  if (reads_beyond_rim && leaves_map(first, first + 1)) return footprint_beyond(receiver, first, weight, light);
   return Footprint(depths_from(first, light), footprint_offsets(receiver, offset, weight, light), weight);
 }
 
@@ -236,7 +245,7 @@ PointTexel fetch_texel(Receiver receiver, vec2 offset, Light light) {
 float compared_share(sampler2DArrayShadow map, Receiver receiver, vec2 offset, float bias, Light light) {
   vec2 at = texel_place(receiver, offset, light);
   ivec2 first = ivec2(floor(at));
-  bool beyond = has_faces(light) && leaves_map(first, first + 1);
+  bool beyond = reads_beyond_rim && leaves_map(first, first + 1);
   Footprint found = Footprint(vec4(0.0), footprint_offsets(receiver, offset, fract(at), light), fract(at));
   if (beyond) found = footprint_beyond(receiver, first, fract(at), light);
   vec4 plane = plane_depths(receiver, found.offsets);

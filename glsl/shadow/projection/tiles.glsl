@@ -14,7 +14,7 @@ struct Hull {
 // Whether tiles are looked for on which the light does not shine at all: a lamp's cone and range end.
 bool may_be_out_of_reach() { return is_lamp; }
 
-// Whether the face of a lamp reads any of the receivers.
+// Whether a face of a lamp's cube reads any of the receivers.
 bool may_see(Hull hull, int face) {
   vec3 low = vec3(1e30), high = vec3(-1e30);
   float along = -1e30;
@@ -27,9 +27,10 @@ bool may_see(Hull hull, int face) {
   return along > 0.0 && along >= (1.0 - face_blend()) * max(least.x, max(least.y, least.z));
 }
 
-// The light spaces in which a tile is to be looked at, as bits: a lamp has one for each face, a sun one for all layers.
+// The light spaces in which a tile is to be looked at, as bits: a cube has one for each face, a spot's map one, and a sun
+// one for all layers.
 int sights_of(Hull hull) {
-  if (!is_lamp) return 1;
+  if (!is_lamp || shadow.layer_count == 1) return 1;
   int sights = 0;
   for (int face = 0; face < shadow.layer_count; ++face) sights |= int(may_see(hull, face)) << face;
   return sights;
