@@ -28,6 +28,7 @@ GLSL_FUNCTION uint pack_texel(float distance_to, float visibility, bool invalid)
 
 const uint distance_bits = 0x7fffu;
 const uint noise_free_bit = 0x8000u;
+const uint visibility_bits = 0x7fff0000u;
 
 GLSL_FUNCTION float texel_distance(uint texel) { return half_value(texel & distance_bits); }
 GLSL_FUNCTION float texel_visibility(uint texel) { return float((texel >> 16) & 0x7fffu) / 32767.0f; }

@@ -232,6 +232,39 @@ TEST_F(ShadowFilter, NothingBleedsAcrossADepthEdge) {
   }
 }
 
+// A floor before a wall, which are seen at the same angle.
+TriangleScene floor_and_wall() {
+  TriangleScene scene;
+  scene.add_quad({-6, 0, 6}, {12, 0, 0}, {0, 0, -6});
+  scene.add_quad({-6, 0, 0}, {12, 0, 0}, {0, 6, 0});
+  scene.view = glm::lookAt(glm::vec3(0, 3, 3), glm::vec3(0), glm::vec3(0, 1, 0));
+  scene.projection = orthographic(1, 1, 0.1f, 20);
+  scene.width = scene.height = 64;
+  return scene;
+}
+
+TEST_F(ShadowFilter, IsophotesLeaveWhatIsLitOrDarkWithItsNeighboursOnItsPlane) {
+  for (const std::string& driver : drivers) {
+    params.set("driver", driver);
+    const TriangleScene plane = ground(64, 89.9f, true);
+    const Shadowed step = draw(plane, "right", "none"), filtered = draw(plane, "right", "isophote");
+    int changed = 0;
+    for (int y = 0; y < 64; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        const bool changes = filtered.visibility(x, y) != step.visibility(x, y);
+        changed += changes ? 1 : 0;
+        ASSERT_TRUE(!changes || x == 31 || x == 32) << driver << " at " << x << " " << y;
+      }
+    }
+    EXPECT_GT(changed, 64) << driver;
+    params.set("pattern.depth", 2.99f);  // metres below the camera: the floor 3
+    const TriangleScene crease = floor_and_wall();
+    const std::vector<float> apart = draw(crease, "low", "none").visibilities();
+    EXPECT_EQ(draw(crease, "low", "isophote").visibilities(), apart) << driver;
+    EXPECT_NE(apart.front(), apart.back());
+  }
+}
+
 TEST_F(ShadowFilter, AConstantMaskStaysConstant) {
   params.set("pattern.visibility", 0.37f);
   for (const std::string& driver : drivers) {

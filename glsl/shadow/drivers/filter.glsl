@@ -18,7 +18,7 @@ bool is_sky_depth(float depth) { return depth == shadow.sky_depth; }
 
 // A texel with another visibility.
 uint with_visibility(uint texel, float visibility) {
-  return (texel & 0x8000ffffu) | (pack_texel(0.0, visibility, false) & 0x7fff0000u);
+  return (texel & ~visibility_bits) | (pack_texel(0.0, visibility, false) & visibility_bits);
 }
 
 // The plane of a pixel's receiver, for measuring its neighbours' distances from it.

@@ -1,6 +1,6 @@
 // bilateral_separable with a narrower kernel, which does not reach from a wide penumbra into a narrow one, and then a
 // mean along the line of equal visibility through the pixel. The first blurs the penumbra's profile half as much; the
-// second averages noise where the profile has none to lose.
+// second averages noise where the profile has none to lose. Neither changes a pixel outside of the penumbra.
 #include "shadow/drivers/filter.glsl"
 
 // Standard deviations of the kernels, as shares of that of filter.width: of the first two passes, and of the last one.
@@ -53,10 +53,34 @@ float mean_on_isophote(ivec2 pixel, Surface surface, vec2 sigma, float own) {
   return sum / weights;
 }
 
+// Between the passes, of a packed texel: no pass changes it. Until then the bit is the history's.
+const uint settled_bit = 0x80000000u;
+const float same_plane = 0.5;  // at most, of plane_distance()
+const int least_alike = 4;     // pixels, of which one is the pixel itself
+
+// Whether a pixel lies outside of the penumbra: it is wholly lit or wholly dark, as are its neighbours on its plane.
+bool is_settled(ivec2 pixel, uint texel, Surface surface) {
+  uint own = texel & visibility_bits;
+  if (own != 0u && own != visibility_bits) return false;
+  bool same = true;
+  int alike = 0;
+  for (int i = 0; same && i < 9; ++i) {
+    ivec2 at = clamp(pixel + ivec2(i % 3, i / 3) - 1, lowest_pixel(), highest_pixel());
+    float depth = stored_depth_at(at);
+    if (is_sky_depth(depth) || abs(plane_distance(surface, at - pixel, depth)) > same_plane) continue;
+    same = (texel_at(at) & visibility_bits) == own;
+    ++alike;
+  }
+  return same && alike >= least_alike;
+}
+
 uint filtered(ivec2 pixel) {
   uint texel = texel_at(pixel);
+  if (filter_pass > 0 && (texel & settled_bit) != 0u) return texel;
+  texel &= ~settled_bit;
   float distance_to = kernel_distance(pixel, texel);
   Surface surface = surface_at(pixel);
+  if (filter_pass == 0 && distance_to > 0.0 && is_settled(pixel, texel, surface)) return texel | settled_bit;
   vec2 sigma = distance_to > 0.0 ? kernel_sigma(surface, distance_to) : vec2(0.0);
   if (filter_pass == 2) {
     if (min(sigma.x, sigma.y) < least_sigma) return texel;
