@@ -46,7 +46,7 @@ std::vector<Param> map_rows() {
            "What the shadow maps cover: all that the camera could see, so that shadows stay still while it moves "
            "(stable), or only what each frame shows, in more detail; all their texels are then divided among as many "
            "maps as make them finest (visible); or all but one of these maps only where penumbrae may be, as small "
-           "maps that are drawn first show (penumbrae)."),
+           "maps that are drawn first show (penumbrae). The last two make the CPU wait for the GPU in each frame."),
       {"cascades.split", 0.75f, 0, 1, "", "Spacing of the cascades: 0 uniform, 1 logarithmic.", host},
       {"cascades.distance", 0.0f, 0, 1e7, "m", "Range of the last cascade; 0: as far as the view sees the scene.",
        host},
