@@ -16,6 +16,7 @@ layout(binding = 1) uniform sampler2D sample_noise;
 #define SCRAMBLE_ROTATE 0  // a disc's points are rotated
 #define SCRAMBLE_SHIFT 1   // points are shifted toroidally in the unit square, and then mapped to the shape
 #define SCRAMBLE_KEYS 2    // points of a grid of 256 x 256 cells get other digits and another order
+#define SCRAMBLE_NONE 3    // the program reads no points
 
 struct Scramble {
 #if SAMPLE_SCRAMBLE == SCRAMBLE_KEYS
@@ -75,6 +76,7 @@ vec2 pixel_noise(Receiver receiver, int step) {
                         step == blocker_step ? shadow.noise_shift.xy : shadow.noise_shift.zw);
 }
 
+#if SAMPLE_SCRAMBLE != SCRAMBLE_NONE
 Scramble scramble_of(Receiver receiver, int step) {
 #if SAMPLE_SCRAMBLE == SCRAMBLE_ROTATE
   float angle = 6.2831853 * pixel_noise(receiver, step).x;
@@ -87,3 +89,4 @@ Scramble scramble_of(Receiver receiver, int step) {
                   shadow.noise_place[step].w);
 #endif
 }
+#endif

@@ -327,7 +327,8 @@ typedef struct penumbra_caster_pass {
                                twice in a frame, with another matrix */
   int32_t view_id;          /**< of the frame */
   uint32_t reserved;        /**< 0 */
-  float world_to_clip[16];  /**< clip space has z in 0..1 (GL_ZERO_TO_ONE is set), 0 at the light; see
+  float world_to_clip[16];  /**< clip space has z in 0..1 (GL_ZERO_TO_ONE is set), 0 near the light; under lamps it is
+                               reversed, 1 near the lamp, and the depth range, which is set to 1..0, stores 0 there. See
                                anchored_to_clip */
   double cull_planes[6][4]; /**< a caster of which every point p has dot(plane.xyz, p) + plane.w < 0 for one of these
                                planes need not be drawn; world space, xyz of unit length; all 0: unused */
@@ -351,11 +352,12 @@ typedef struct penumbra_caster_pass {
 } penumbra_caster_pass;
 
 /** Draws casters and returns 0; another value ends penumbra_render() with PENUMBRA_ERROR_CALLBACK. Framebuffer,
- * viewport, scissor, depth test and clip control are set; culling and polygon offset are off, front faces
- * counter-clockwise and back faces those that would be culled, and no matrix mirrors; the callback binds its own
- * programs and vertex arrays. Both faces of every triangle cast shadows unless the engine decides otherwise. A
- * caster that is drawn in several of these passes must get the same depths, to the bit, in each: compute positions by
- * the same expressions (`invariant gl_Position`). It must not call functions that take a device, or that make one. */
+ * viewport, scissor, depth test, depth range and clip control are set, and must stay as they are; culling and polygon
+ * offset are off, front faces counter-clockwise and back faces those that would be culled, and no matrix mirrors; the
+ * callback binds its own programs and vertex arrays. Both faces of every triangle cast shadows unless the engine
+ * decides otherwise. A caster that is drawn in several of these passes must get the same depths, to the bit, in each:
+ * compute positions by the same expressions (`invariant gl_Position`). It must not call functions that take a device,
+ * or that make one. */
 typedef int32_t (*penumbra_draw_casters)(void* user, const penumbra_caster_pass* pass);
 
 /* ----------------------------------------------------------------------------------------------------------- Frames */

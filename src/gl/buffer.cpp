@@ -1,5 +1,6 @@
 #include "buffer.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <string>
@@ -20,11 +21,15 @@ Handle<delete_buffer> make_storage(std::string_view name, std::size_t bytes, con
   glCreateBuffers(1, &id);
   Handle<delete_buffer> handle(id);
   label(GL_BUFFER, id, name);
-  // A buffer of no bytes is not valid storage, while an empty list is a valid thing to upload.
-  const std::size_t storage = bytes == 0 ? 1 : bytes;
+  // Shaders' blocks must not be larger than their buffers, and a block that ends in an array has room for one element:
+  // a matrix in the largest. Drivers round blocks up to 16 bytes.
+  constexpr std::size_t unit = 16, least = 64;
+  const std::size_t storage = std::max((bytes + unit - 1) / unit * unit, least);
   const std::string what = fmt::format("buffer '{}'", name);
   StorageCheck check(what);
-  glNamedBufferStorage(id, static_cast<GLsizeiptr>(storage), bytes == 0 ? nullptr : contents, flags);
+  const bool whole = contents != nullptr && bytes == storage;
+  glNamedBufferStorage(id, static_cast<GLsizeiptr>(storage), whole ? contents : nullptr, flags);
+  if (contents != nullptr && !whole && bytes > 0) glNamedBufferSubData(id, 0, static_cast<GLsizeiptr>(bytes), contents);
   if (check.ran_out()) fail("{}: out of memory for {} bytes", what, bytes);
   return handle;
 }

@@ -69,6 +69,7 @@ struct PassDesc {
   unsigned channels = 0xf;  // of colours that draws write: bit 0 red to bit 3 alpha; clears write all
   bool cull_back = false;   // counter-clockwise is front
   bool depth_clamp = false;
+  bool depth_reversed = false;       // clip-space depths of 0 to 1 are tested and stored as 1 to 0
   std::optional<TexelRect> scissor;  // draws change only these texels; clears are not limited
 };
 

@@ -75,6 +75,7 @@ GLenum function_of(DepthTest test) {
 
 void set_depth(const PassDesc& desc) {
   set_enabled(GL_DEPTH_CLAMP, desc.depth_clamp);
+  if (desc.depth_reversed) glDepthRange(1.0, 0.0);
   // GL writes depth only while the test is on.
   set_enabled(GL_DEPTH_TEST, desc.depth_test != DepthTest::off || desc.depth_write);
   glDepthMask(desc.depth_write ? GL_TRUE : GL_FALSE);

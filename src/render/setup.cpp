@@ -45,7 +45,8 @@ glm::mat4 view_of(const glm::mat4& world) {
   if (!(glm::length(back) > 0)) back = {0, 0, 1};
   if (!(glm::length(glm::cross(up, back)) > 0))
     up = std::abs(back.y) < 0.9f * glm::length(back) ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1);
-  return glm::lookAt(eye, eye - glm::normalize(back), glm::normalize(up));
+  // About the origin: far from it, a place has no digits for a direction.
+  return glm::translate(glm::lookAt(glm::vec3(0), -glm::normalize(back), glm::normalize(up)), -eye);
 }
 
 // The camera's projection; follow() sets its position.

@@ -95,7 +95,9 @@ struct CasterPass {
   // Of the light's shadow map; 0 for kind `geometry`. With cascades.fit=penumbrae also of smaller maps that are drawn
   // first, so that a layer may come twice, with another matrix.
   int layer = 0;
-  glm::mat4 world_to_clip{1};  // of this frame, also for moved_last
+  // Of this frame, also for moved_last. Clip space has z in 0..1, 0 near the light; under lamps that the library fits
+  // maps to it is reversed, 1 near the lamp, and the pass has set the depth range that stores it as 0.
+  glm::mat4 world_to_clip{1};
   // The same for positions less an anchor in the layer: gl_Position = anchored.to_clip * vec4(position -
   // anchored.anchor, 1). Far from the world's origin world_to_clip has too few digits: under lamps from about 50 m,
   // under suns from 2 km on, surfaces would shadow themselves. Use one of both in all passes of a light. For kind

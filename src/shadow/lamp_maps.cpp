@@ -94,19 +94,20 @@ std::string LampMaps::fault() const {
 bool has_one_map(const glm::dvec3& axis, double cone) { return glm::length(axis) > 0 && cone <= widest_single_map; }
 
 LampMaps fit_lamp(const LampInputs& in) {
-  LampMaps maps{.position = in.position, .size = in.size, .radius = in.radius, .range = in.range};
+  LampMaps maps{
+      .position = in.position, .size = in.size, .radius = in.radius, .range = in.range, .drawn_reversed = true};
   const bool spot = glm::length(in.axis) > 0;
   maps.world_to_lamp = spot ? light_axes(-in.axis) : light_axes(glm::dvec3(0, 1, 0));
   if (spot) maps.cone = std::cos(in.cone);
   maps.count = has_one_map(in.axis, in.cone) ? 1 : cube_faces;
-  // A blocker at distance b moves a disc's rim by up to (1 + t²) · radius / b of the tangent t.
-  const double rim = maps.count == 1 ? std::tan(in.cone) : 1.0;
-  const double disc = (1 + rim * rim) * in.radius / glsl::clear_distance(static_cast<float>(in.radius));
-  maps.tangent = (rim + disc) / (1 - std::min(2 * texels_beyond / in.size, 0.5));
   const double reach = farthest_of(in.receivers, in.position) * 1.001;
   const double far = step_up(in.range > 0 ? std::min(in.range, reach) : reach);
   maps.near = std::max({in.nearest, step_down(0.5 * distance_to(in.casters, in.position)), far / most_far_over_near});
   maps.far = std::max(far, 2 * maps.near);
+  // A blocker at distance b moves a disc's rim by up to (1 + t²) · radius / b of the tangent t.
+  const double rim = maps.count == 1 ? std::tan(in.cone) : 1.0;
+  const double nearest = std::max<double>(glsl::clear_distance(static_cast<float>(in.radius)), maps.near);
+  maps.tangent = (rim + (1 + rim * rim) * in.radius / nearest) / (1 - std::min(2 * texels_beyond / in.size, 0.5));
   return maps;
 }
 

@@ -27,7 +27,12 @@ struct LampMaps {
   double radius = 0;   // of the lamp, metres
   double cone = -2;    // cosine of the half angle of a spot's cone; below -1: it shines in all directions
   double range = 0;    // metres; 0: unlimited
+  // Whether casters are drawn with reversed clip-space depth, which the depth range turns back. Else a vertex far
+  // beyond the far plane would have a z and a w of which only the last digits differ, and large triangles would get
+  // wrong depths near the lamp.
+  bool drawn_reversed = false;
 
+  // z of clip space is the stored depth.
   glm::dmat4 world_to_clip(int face) const;
   // The part of the face's frustum between its near and its far plane.
   CullVolume cull_volume(int face) const;

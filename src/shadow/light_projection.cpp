@@ -139,6 +139,14 @@ const glm::dmat4& clip_matrix(const Cascades& cascades, int layer) {
 }
 glm::dmat4 clip_matrix(const LampMaps& lamp, int layer) { return lamp.world_to_clip(layer); }
 
+glm::dmat4 caster_matrix(const Cascades& cascades, int layer) { return clip_matrix(cascades, layer); }
+glm::dmat4 caster_matrix(const LampMaps& lamp, int layer) {
+  glm::dmat4 matrix = lamp.world_to_clip(layer);
+  if (!lamp.drawn_reversed) return matrix;
+  for (glm::length_t i = 0; i < 4; ++i) matrix[i].z = matrix[i].w - matrix[i].z;
+  return matrix;
+}
+
 // The middle of a cascade, and a lamp's centre.
 glm::dvec3 anchor_of(const Cascades&, const glm::dmat4& world_to_clip) {
   return glm::dvec3(glm::inverse(world_to_clip) * glm::dvec4(0, 0, 0.5, 1));
@@ -225,14 +233,22 @@ glm::mat4 LightProjection::world_to_clip(int layer) const {
   return std::visit([&](const auto& maps) { return glm::mat4(clip_matrix(maps, layer)); }, maps_);
 }
 
+glm::mat4 LightProjection::casters_to_clip(int layer) const {
+  return std::visit([&](const auto& maps) { return glm::mat4(caster_matrix(maps, layer)); }, maps_);
+}
+
 AnchoredMatrix LightProjection::anchored_to_clip(int layer) const {
   return std::visit(
       [&](const auto& maps) {
-        const glm::dmat4 world_to_clip = clip_matrix(maps, layer);
-        const glm::vec3 anchor(anchor_of(maps, world_to_clip));
-        return AnchoredMatrix{glm::mat4(glm::translate(world_to_clip, glm::dvec3(anchor))), anchor};
+        const glm::vec3 anchor(anchor_of(maps, clip_matrix(maps, layer)));
+        return AnchoredMatrix{glm::mat4(glm::translate(caster_matrix(maps, layer), glm::dvec3(anchor))), anchor};
       },
       maps_);
+}
+
+bool LightProjection::drawn_reversed() const {
+  const auto* lamp = std::get_if<LampMaps>(&maps_);
+  return lamp != nullptr && lamp->drawn_reversed;
 }
 
 CullVolume LightProjection::cull_volume(int layer) const {

@@ -96,7 +96,11 @@ class LightProjection {
   float depth_range(int layer) const;
   // From world space to clip space of a layer: x and y in -1..1 within the map, z in 0..1, which is the stored depth.
   glm::mat4 world_to_clip(int layer) const;
+  // The matrices that casters are drawn with. They give 1 minus that z where drawn_reversed(), and their passes turn it
+  // back: see gl::PassDesc::depth_reversed.
+  glm::mat4 casters_to_clip(int layer) const;
   AnchoredMatrix anchored_to_clip(int layer) const;
+  bool drawn_reversed() const;
   // World space. Casters outside of it can't shadow any receiver that reads the layer.
   CullVolume cull_volume(int layer) const;
   // Casters outside of it can't shadow any receiver of the view.

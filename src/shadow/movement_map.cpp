@@ -35,7 +35,8 @@ void draw_pose(gl::Device& device, const MovementInputs& inputs, CasterKind kind
   gl::PassDesc desc{.name = last ? "movement map, last" : "movement map",
                     .colors = {{.texture = &inputs.map, .layer = layer}},
                     // The last position may be in front of the near plane, which is fitted to the present scene.
-                    .depth_clamp = last};
+                    .depth_clamp = last,
+                    .depth_reversed = inputs.projection.drawn_reversed()};
   if (clear) desc.colors[0].clear = glm::vec4(0);
   if (inputs.depth != nullptr) {
     desc.depth = gl::Attachment{.texture = inputs.depth, .layer = layer};
@@ -44,7 +45,7 @@ void draw_pose(gl::Device& device, const MovementInputs& inputs, CasterKind kind
   gl::Pass pass(device, desc);
   inputs.draw({.kind = kind,
                .layer = layer,
-               .world_to_clip = inputs.projection.world_to_clip(layer),
+               .world_to_clip = inputs.projection.casters_to_clip(layer),
                .anchored = inputs.projection.anchored_to_clip(layer),
                .cull = inputs.projection.cull_volume(layer),
                .source = inputs.source},

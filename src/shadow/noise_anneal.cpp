@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <barrier>
 #include <cmath>
+#include <functional>
+#include <system_error>
 #include <thread>
 
 #include "../core/random.h"
@@ -174,18 +177,34 @@ void anneal(NoiseTile& tile, std::uint64_t seed, int threads, const NoiseProgres
   std::barrier turn_over(workers, [&]() noexcept {
     if (++phase % 4 == 0 && phase < 4 * turns) annealer.begin_turn(phase / 4);
   });
-  const auto work = [&](int worker) {
-    for (int turn = 0; turn < turns; ++turn) {
+  std::atomic<bool> stopped = false;
+  const auto work = [&](int first, int last, const std::function<void(int)>& turned) {
+    for (int turn = 0; turn < turns && !stopped; ++turn) {
       for (int parity = 0; parity < 4; ++parity) {
-        annealer.swap_in_blocks(parity, worker, workers);
+        for (int worker = first; worker < last; ++worker) annealer.swap_in_blocks(parity, worker, workers);
         turn_over.arrive_and_wait();
       }
-      if (worker == 0) progress((turn + 1.0) / turns);
+      turned(turn);
     }
+    if (stopped) turn_over.arrive_and_drop();
   };
   std::vector<std::jthread> helpers;
-  for (int worker = 1; worker < workers; ++worker) helpers.emplace_back(work, worker);
-  work(0);
+  int first_own = workers - 1;  // this thread works as this one and all after it
+  try {
+    for (int worker = 0; worker < first_own; ++worker)
+      helpers.emplace_back([&, worker] { work(worker, worker + 1, [](int) {}); });
+  } catch (const std::system_error&) {
+    // The system refuses another thread.
+    first_own = static_cast<int>(helpers.size());
+    for (int missing = first_own + 1; missing < workers; ++missing) turn_over.arrive_and_drop();
+  }
+  try {
+    work(first_own, workers, [&](int turn) { progress((turn + 1.0) / turns); });
+  } catch (...) {
+    stopped = true;
+    turn_over.arrive_and_drop();
+    throw;
+  }
 }
 
 }  // namespace penumbra::shadow

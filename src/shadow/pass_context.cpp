@@ -29,8 +29,9 @@ const char* name_of(PassOwner::Kind kind) {
 }
 
 // Takes that from the depths of what a matrix transforms, which it leaves as they are, to the bit, if it is 0.
-void bring_nearer(glm::mat4& to_clip, float depth) {
-  for (glm::length_t i = 0; i < 4; ++i) to_clip[i].z -= depth * to_clip[i].w;
+// `depth`: to be added to z of clip space.
+void move_along(glm::mat4& to_clip, float depth) {
+  for (glm::length_t i = 0; i < 4; ++i) to_clip[i].z += depth * to_clip[i].w;
 }
 
 }  // namespace
@@ -146,7 +147,7 @@ CasterPass PassContext::caster_pass(CasterKind kind, int layer) const {
   const LightProjection& projection = work_.frame.projection;
   return {.kind = kind,
           .layer = layer,
-          .world_to_clip = projection.world_to_clip(layer),
+          .world_to_clip = projection.casters_to_clip(layer),
           .anchored = projection.anchored_to_clip(layer),
           .cull = projection.cull_volume(layer),
           .source = light().source};
@@ -163,8 +164,9 @@ void PassContext::draw_second_depth(gl::Pass& pass, int layer, float gap) const 
   // Programs and matrices that are not the ones which drew the map may give other depths, by some steps of a float.
   constexpr float rounding = 4 * 0x1p-24f;
   if (light().maps || gap > 0) casters.gap = std::max(casters.gap, rounding);
-  bring_nearer(casters.world_to_clip, casters.gap);
-  bring_nearer(casters.anchored.to_clip, casters.gap);
+  const float nearer = work_.frame.projection.drawn_reversed() ? casters.gap : -casters.gap;
+  move_along(casters.world_to_clip, nearer);
+  move_along(casters.anchored.to_clip, nearer);
   work_.inputs.draw(casters, pass);
 }
 

@@ -234,9 +234,9 @@ gl::ProgramDesc Programs::decide_tiles(const Technique& technique, const DecideF
   return {
       .name = "decide tiles",
       .compute = including(folder, {folder + "/preamble.glsl", "shadow/drivers/decide_tiles.comp"}),
-      // It reads no sample points, but the preamble of a technique that has some asks for it.
+      // SCRAMBLE_NONE: its uniform block of sample points may be larger than the tables that are bound.
       .defines = {
-          {"SAMPLE_SCRAMBLE", "0"}, {"LAMP", form.lamp ? "1" : "0"}, {"maps_layers", form.second_layer ? "2" : "1"}}};
+          {"SAMPLE_SCRAMBLE", "3"}, {"LAMP", form.lamp ? "1" : "0"}, {"maps_layers", form.second_layer ? "2" : "1"}}};
 }
 
 gl::ProgramDesc Programs::decided(const MaskForm& form) const {

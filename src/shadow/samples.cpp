@@ -149,12 +149,14 @@ std::string sample_declarations(const Technique& technique, const ParamSet& para
   }
   return fmt::format(
       "#include \"shadow/sampling.glsl\"\n"
+      "#if SAMPLE_SCRAMBLE != SCRAMBLE_NONE\n"
       "layout(std140, binding = {}) uniform SamplePoints {{\n"
       "#if SAMPLE_SCRAMBLE == SCRAMBLE_KEYS\n"
       "  vec4 keyed_points[{}];\n"
       "#else\n"
       "{}"
-      "#endif\n}};\n{}",
+      "#endif\n}};\n{}"
+      "#endif\n",
       static_cast<unsigned>(block_samples), keyed_point_count, members, functions);
 }
 

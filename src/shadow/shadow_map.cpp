@@ -31,7 +31,8 @@ void draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs) {
     gl::PassDesc desc{.name = "shadow map",
                       .depth = gl::Attachment{.texture = &inputs.map, .layer = i, .clear = glm::vec4(1)},
                       .depth_test = gl::DepthTest::less_equal,
-                      .depth_write = true};
+                      .depth_write = true,
+                      .depth_reversed = inputs.projection.drawn_reversed()};
     desc.scissor = drawn_rect(inputs.projection, i);
     const CullVolume cull = inputs.projection.cull_volume(i);
     const bool marks = inputs.moved != nullptr && may_hold_moved(cull, inputs.moved_bounds);
@@ -40,7 +41,7 @@ void draw_shadow_map(gl::Device& device, const ShadowMapInputs& inputs) {
     const CasterKind kind = marks ? CasterKind::depth_and_moved : CasterKind::depth;
     inputs.draw({.kind = kind,
                  .layer = i,
-                 .world_to_clip = inputs.projection.world_to_clip(i),
+                 .world_to_clip = inputs.projection.casters_to_clip(i),
                  .anchored = inputs.projection.anchored_to_clip(i),
                  .cull = cull,
                  .source = inputs.source},

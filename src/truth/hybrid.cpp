@@ -114,6 +114,7 @@ class HybridFrame {
     context_.device().sampler({.min_filter = GL_NEAREST_MIPMAP_NEAREST}).bind(unit_masked);
     if (masked != nullptr) masked->bind(unit_masked);
     list.bind_storage(shadow::tile_list_binding);
+    left_.bind_storage(left_binding);
     shadow::dispatch_decisions(pass, program, tiles);
     return list;
   }

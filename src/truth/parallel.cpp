@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -21,18 +22,28 @@ int thread_count(int wanted) {
 
 void for_ranges(int threads, std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
   std::atomic<std::size_t> next = 0;
+  std::atomic_flag failed;
+  std::exception_ptr fault;
   const auto run = [&] {
-    for (std::size_t begin = next.fetch_add(range_size); begin < count; begin = next.fetch_add(range_size))
-      work(begin, std::min(begin + range_size, count));
+    try {
+      for (std::size_t begin = next.fetch_add(range_size); begin < count; begin = next.fetch_add(range_size))
+        work(begin, std::min(begin + range_size, count));
+    } catch (...) {
+      next = count;
+      if (!failed.test_and_set()) fault = std::current_exception();
+    }
   };
   const std::size_t useful = std::min<std::size_t>(static_cast<std::size_t>(threads), count / range_size + 1);
-  std::vector<std::jthread> helpers;  // joined at the end
-  try {
-    for (std::size_t i = 1; i < useful; ++i) helpers.emplace_back(run);
-  } catch (const std::system_error&) {
-    // The system refuses another thread: the existing ones do the work.
+  {
+    std::vector<std::jthread> helpers;
+    try {
+      for (std::size_t i = 1; i < useful; ++i) helpers.emplace_back(run);
+    } catch (const std::system_error&) {
+      // The system refuses another thread: the existing ones do the work.
+    }
+    run();
   }
-  run();
+  if (fault) std::rethrow_exception(fault);
 }
 
 }  // namespace penumbra::truth

@@ -42,6 +42,28 @@ TEST_F(LampLimits, CastersFarFromALampCastShadows) {
   }
 }
 
+// Two triangles reach far beyond the far plane, which ends at the lamp's range.
+TEST_F(LampLimits, LargeTrianglesDoNotShadowThemselvesUnderALampWithARange) {
+  TriangleScene scene;
+  for (const float half : {100.0f, 500.0f, 2000.0f}) {
+    scene.triangles.clear();
+    scene.add_quad({-half, 0, -half}, {0, 0, 2 * half}, {2 * half, 0, 0});
+    scene.width = scene.height = 64;
+    scene.view = glm::lookAt(glm::vec3(0, 1, 0), glm::vec3(0), glm::vec3(0, 0, -1));
+    scene.projection = orthographic(6, 6, 0.01f, 2);
+    for (const int layers : {1, 2}) {
+      for (const char* technique : {"hard", "pcss", "slices"}) {
+        ParamSet params = renderer_->params();
+        params.set("technique", std::string(technique));
+        params.set("maps.layers", layers);
+        const shadow::Lamp lamp{.position = {0.3f, 2, 0.2f}, .radius = 0.05f, .range = 15};
+        for (const float visibility : render(scene, lamp, params).visibilities())
+          ASSERT_EQ(visibility, 1) << technique << ", ground of " << half << " m";
+      }
+    }
+  }
+}
+
 TEST_F(LampLimits, CastersAreThoseBeyondTheNearPlane) {
   TriangleScene scene;
   scene.add_quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0});

@@ -90,6 +90,11 @@ TEST(Noise, IsTheSameOnEveryMachine) {
   EXPECT_EQ(digest(make_noise("spatiotemporal", 16, 2, 5)), 3365623650642415889U);
 }
 
+TEST(Noise, WhatProgressThrowsEndsAllThreads) {
+  const auto progress = [](double) { fail("enough"); };
+  EXPECT_THROW(make_noise("blue", 32, 2, 5, 3, progress), Error);
+}
+
 TEST(Noise, IsTheSameForEveryNumberOfThreads) { EXPECT_EQ(digest(make_noise("blue", 16, 2, 5, 3)), blue_digest); }
 
 // After a change to how noise is made, update the digests above and bake these tiles again.

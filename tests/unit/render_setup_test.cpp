@@ -315,6 +315,22 @@ TEST(Setup, CameraAndSunFollowTheirNodes) {
   EXPECT_NEAR(setup.sun.to_light.y, 1, 1e-6f);
 }
 
+TEST(Setup, ACameraFarFromTheOriginLooksWhereItDoesNearIt) {
+  scene::Scene scene = scene_of({box({-1, 0, -1}, {1, 2, 1})});
+  add_camera(scene, {0, 1, 6}, {0, 0, 1}, {.name = "x", .fov_y = 0.5f});
+  render::Setup setup = setup_of(scene);
+  const glm::mat4 turn = glm::rotate(glm::mat4(1), 1.1f, glm::normalize(glm::vec3(0.3f, 1, -0.2f)));
+  const auto seen_from = [&](const glm::vec3& place) {
+    scene::Pose pose = scene::rest_pose(scene);
+    pose.world[1] = glm::translate(glm::mat4(1), place) * turn;
+    render::follow(setup, pose);
+    return glm::mat3(setup.camera.view);
+  };
+  const glm::mat3 near = seen_from(glm::vec3(0));
+  for (const float metres : {6e3f, 6e4f, 7.8e6f, 7.8e7f})
+    EXPECT_EQ(seen_from(metres * glm::vec3(1, 0.67f, 1.3f)), near) << metres << " m";
+}
+
 // Where the node's matrix gives no direction upwards, it is the world's, or for a camera that looks down its +Z.
 TEST(Setup, ACameraIsUprightWhereItsNodeIsFlat) {
   scene::Scene scene = scene_of({box({-1, 0, -1}, {1, 2, 1})});

@@ -137,8 +137,8 @@ vec2 map_place(vec3 position, Light light) {
 // An offset in texels of the light's layer.
 vec2 map_offset(vec2 offset, Light light) { return offset * (light.map.widths_per_metre * shadow.map_size); }
 
-// Depth in a texel of the light's layer of a map, or beyond its rim, metres: the far plane's where there are no casters,
-// as where the sampler's border is read.
+// Depth in a texel of the light's layer of a map, or beyond its rim, metres: where there are no casters it is the far
+// plane's, as where the sampler's border is read.
 float depth_in(sampler2DArray map, ivec2 texel, Light light) {
   return stored_depth(stored_in(map, texel, light), light);
 }

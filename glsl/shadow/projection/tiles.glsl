@@ -27,8 +27,8 @@ bool may_see(Hull hull, int face) {
   return along > 0.0 && along >= (1.0 - face_blend()) * max(least.x, max(least.y, least.z));
 }
 
-// The light spaces in which a tile is to be looked at, as bits: a cube has one for each face, a spot's map one, and a sun
-// one for all layers.
+// The light spaces in which a tile is to be looked at, as bits: a cube has one for each face, a spot's map one, and a
+// sun one for all layers.
 int sights_of(Hull hull) {
   if (!is_lamp || shadow.layer_count == 1) return 1;
   int sights = 0;

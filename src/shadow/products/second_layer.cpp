@@ -29,6 +29,7 @@ const gl::Texture& build(const PassContext& context) {
                       .depth = gl::Attachment{.texture = &context.shadow_map(), .layer = i},
                       .depth_test = gl::DepthTest::greater,
                       .blend = gl::Blend::min};
+    desc.depth_reversed = projection.drawn_reversed();
     desc.scissor = drawn_rect(projection, i);
     gl::Pass pass(context.device(), desc);
     context.draw_second_depth(pass, i, gap);
