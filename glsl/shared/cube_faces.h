@@ -1,5 +1,5 @@
-// The faces of a cube about a lamp: +z −z +x −x +y −y, in the lamp's space, and how wide their maps are. Read by C++ and
-// GLSL.
+// The faces of a cube about a lamp: +z −z +x −x +y −y, in the lamp's space, and how wide their maps are. Read by C++
+// and GLSL.
 #ifndef PENUMBRA_CUBE_FACES_H
 #define PENUMBRA_CUBE_FACES_H
 
@@ -36,8 +36,8 @@ GLSL_FUNCTION ivec3 faces_of(vec3 p) {
   return far.z >= far.x ? ivec3(y, z, x) : ivec3(y, x, z);
 }
 
-// The distance from the centre of a lamp of this radius, metres, from which on its maps are wide enough: receivers at the
-// edge of a face, or of a spot's cone, see all of a caster that is at least so far from the lamp.
+// The distance from the centre of a lamp of this radius, metres, from which on its maps are wide enough: receivers at
+// the edge of a face, or of a spot's cone, see all of a caster that is at least so far from the lamp.
 GLSL_FUNCTION float clear_distance(float radius) { return max(2.0f * radius, 0.2f); }
 
 GLSL_END

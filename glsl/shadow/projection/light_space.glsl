@@ -49,12 +49,14 @@ Light frame_light() {
                vec3(1.0, 1.0, 0.0), 1.0);
 }
 
-// A lamp's map as that of a sun, for receivers at this depth.
+// A lamp's map as that of a sun, for receivers at this depth. Depths are differences of large numbers: if compilers
+// rounded them in other ways, two programs could decide differently for one pixel.
 LayerBlock map_at_depth(LayerBlock map, float depth) {
+  precise float near_depth = depth * (2.0 + depth * map.near_depth), depth_range = map.depth_range * (depth * depth);
   map.widths_per_metre /= depth;
   map.texel *= depth;
-  map.near_depth = depth * (2.0 + depth * map.near_depth);
-  map.depth_range *= depth * depth;
+  map.near_depth = near_depth;
+  map.depth_range = depth_range;
   map.rounding *= depth * depth;
   return map;
 }

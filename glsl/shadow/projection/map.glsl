@@ -43,8 +43,8 @@ float filtered_difference(float difference, Light light) {
 }
 
 // Beyond the rim of a cube's face the map goes on in the faces there. Their texels lie elsewhere, so that what is read
-// of one is a depth and its own place. Beyond the rim of a spot's single map, a caster which the rim shows nearer to the
-// lamp than what the map is wide enough for is taken to go on as it is there.
+// of one is a depth and its own place. Beyond the rim of a spot's single map, a caster which the rim shows nearer to
+// the lamp than what the map is wide enough for is taken to go on as it is there.
 
 // Whether something is read beyond a rim, and whether in other faces. Macros, not functions: of a function drivers see
 // that it is false in programs for suns only after they have inlined all that is behind it, wherever a texel is read.
