@@ -327,9 +327,9 @@ typedef struct penumbra_caster_pass {
                                twice in a frame, with another matrix */
   int32_t view_id;          /**< of the frame */
   uint32_t reserved;        /**< 0 */
-  float world_to_clip[16];  /**< clip space has z in 0..1 (GL_ZERO_TO_ONE is set), 0 near the light; under lamps it is
-                               reversed, 1 near the lamp, and the depth range, which is set to 1..0, stores 0 there. See
-                               anchored_to_clip */
+  float world_to_clip[16];  /**< clip space has z in 0..1 (GL_ZERO_TO_ONE is set), 0 near the light; under lamps without
+                               penumbra_light.maps it is reversed but for PENUMBRA_PASS_GEOMETRY: 1 near the lamp, where
+                               the depth range, which is set to 1..0, stores 0. See anchored_to_clip */
   double cull_planes[6][4]; /**< a caster of which every point p has dot(plane.xyz, p) + plane.w < 0 for one of these
                                planes need not be drawn; world space, xyz of unit length; all 0: unused */
   float light_place[4];     /**< world: xyz the direction to a sun and w 0, or the centre of a lamp and w 1 */
@@ -352,12 +352,13 @@ typedef struct penumbra_caster_pass {
 } penumbra_caster_pass;
 
 /** Draws casters and returns 0; another value ends penumbra_render() with PENUMBRA_ERROR_CALLBACK. Framebuffer,
- * viewport, scissor, depth test, depth range and clip control are set, and must stay as they are; culling and polygon
- * offset are off, front faces counter-clockwise and back faces those that would be culled, and no matrix mirrors; the
- * callback binds its own programs and vertex arrays. Both faces of every triangle cast shadows unless the engine
- * decides otherwise. A caster that is drawn in several of these passes must get the same depths, to the bit, in each:
- * compute positions by the same expressions (`invariant gl_Position`). It must not call functions that take a device,
- * or that make one. */
+ * viewport, scissor, depth test, depth range and clip control are set, and must stay as they are, since a depth
+ * range of 0..1 would turn the maps of lamps over; a shader that writes gl_FragDepth writes the stored depth, 0 near
+ * the light; culling and polygon offset are off, front faces counter-clockwise and back faces those that would be
+ * culled, and no matrix mirrors; the callback binds its own programs and vertex arrays. Both faces of every triangle
+ * cast shadows unless the engine decides otherwise. A caster that is drawn in several of these passes must get the same
+ * depths, to the bit, in each: compute positions by the same expressions (`invariant gl_Position`). It must not call
+ * functions that take a device, or that make one. */
 typedef int32_t (*penumbra_draw_casters)(void* user, const penumbra_caster_pass* pass);
 
 /* ----------------------------------------------------------------------------------------------------------- Frames */

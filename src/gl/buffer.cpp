@@ -21,16 +21,19 @@ Handle<delete_buffer> make_storage(std::string_view name, std::size_t bytes, con
   glCreateBuffers(1, &id);
   Handle<delete_buffer> handle(id);
   label(GL_BUFFER, id, name);
-  // Shaders' blocks must not be larger than their buffers, and a block that ends in an array has room for one element:
-  // a matrix in the largest. Drivers round blocks up to 16 bytes.
+  // A shader's block must not be larger than its buffer, and one that ends in an array has room for one element: of the
+  // lists that may be empty a matrix is the largest. Drivers round blocks up to 16 bytes.
   constexpr std::size_t unit = 16, least = 64;
   const std::size_t storage = std::max((bytes + unit - 1) / unit * unit, least);
   const std::string what = fmt::format("buffer '{}'", name);
   StorageCheck check(what);
   const bool whole = contents != nullptr && bytes == storage;
   glNamedBufferStorage(id, static_cast<GLsizeiptr>(storage), whole ? contents : nullptr, flags);
-  if (contents != nullptr && !whole && bytes > 0) glNamedBufferSubData(id, 0, static_cast<GLsizeiptr>(bytes), contents);
   if (check.ran_out()) fail("{}: out of memory for {} bytes", what, bytes);
+  if (contents == nullptr || whole || bytes == 0) return handle;
+  StorageCheck upload(what);
+  glNamedBufferSubData(id, 0, static_cast<GLsizeiptr>(bytes), contents);
+  if (upload.ran_out()) fail("{}: out of memory for {} bytes", what, bytes);
   return handle;
 }
 

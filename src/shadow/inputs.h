@@ -95,8 +95,8 @@ struct CasterPass {
   // Of the light's shadow map; 0 for kind `geometry`. With cascades.fit=penumbrae also of smaller maps that are drawn
   // first, so that a layer may come twice, with another matrix.
   int layer = 0;
-  // Of this frame, also for moved_last. Clip space has z in 0..1, 0 near the light; under lamps that the library fits
-  // maps to it is reversed, 1 near the lamp, and the pass has set the depth range that stores it as 0.
+  // Of this frame, also for moved_last. Clip space has z in 0..1, 0 near the light; under lamps whose maps the library
+  // draws, but for kind `geometry`, it is 1 there, and the pass's depth range, which must stay, stores it as 0.
   glm::mat4 world_to_clip{1};
   // The same for positions less an anchor in the layer: gl_Position = anchored.to_clip * vec4(position -
   // anchored.anchor, 1). Far from the world's origin world_to_clip has too few digits: under lamps from about 50 m,

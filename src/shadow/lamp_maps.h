@@ -59,7 +59,7 @@ struct LampInputs {
   Box casters, receivers;  // world bounds
 };
 
-// Maps as wide as receivers need whose blockers are at least 2 radii and 20 cm from the lamp, from the nearest caster
+// Maps as wide as receivers need whose blockers are beyond 2 radii, 20 cm and the near plane, from the nearest caster
 // to the farthest receiver. Spots of up to 60 degrees from axis to rim get one map.
 LampMaps fit_lamp(const LampInputs& inputs);
 

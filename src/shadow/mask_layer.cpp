@@ -55,7 +55,7 @@ void draw_some_pixels(int scale, LightWork work, ScaledViews& views) {
                   .remembered = work.remembered};
   if (tiles && decides_tiles(small))
     small.tiles = &of_scaled.emplace(
-        scaled_tiles(small, {.tiles = *tiles, .viewport = work.frame.viewport, .has_rims = has_rims(work)}));
+        scaled_tiles(small, {.tiles = *tiles, .viewport = work.frame.viewport, .has_faces = has_faces(work)}));
   const gl::Buffer* of_view = work.state.shadow_block;
   upload_light(small, "scaled light", scaled.ndc * work.view.last_jitter, scale);
   draw_all_pixels(small);

@@ -121,9 +121,11 @@ void compute_listed(const LightWork& work, const MaskOutput& output, const Tiles
 
 }  // namespace
 
-bool has_rims(const LightWork& work) { return work.frame.shape.lamp; }
+bool has_faces(const LightWork& work) { return work.frame.shape.lamp && work.frame.projection.layers() > 1; }
 
-bool lists_apart(const LightWork& work) { return has_rims(work) || reads_second_layer(work.technique, work.params()); }
+bool lists_apart(const LightWork& work) {
+  return work.frame.shape.lamp || reads_second_layer(work.technique, work.params());
+}
 
 const gl::Texture* run_mask_pass(const LightWork& work, const MaskOutput& output) {
   if (!decides_tiles(work)) {

@@ -21,8 +21,8 @@ const gl::Texture* run_mask_pass(const LightWork& work, const MaskOutput& output
 // Fills the light's layer of the mask with the tiles that decide_all_tiles() decides. The others are listed.
 Tiles fill_decided_tiles(const LightWork& work);
 
-// Whether a receiver may read beyond the rim of the map that sees it: see glsl/shadow/projection/map.glsl.
-bool has_rims(const LightWork& work);
+// Whether the light has several maps that go on in each other: those of a cube's faces.
+bool has_faces(const LightWork& work);
 // Whether tiles are listed apart whose receivers may read what others do not: beyond a rim, or the second layer.
 bool lists_apart(const LightWork& work);
 

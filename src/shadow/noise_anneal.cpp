@@ -3,8 +3,8 @@
 #include <atomic>
 #include <barrier>
 #include <cmath>
+#include <exception>
 #include <functional>
-#include <system_error>
 #include <thread>
 
 #include "../core/random.h"
@@ -193,8 +193,8 @@ void anneal(NoiseTile& tile, std::uint64_t seed, int threads, const NoiseProgres
   try {
     for (int worker = 0; worker < first_own; ++worker)
       helpers.emplace_back([&, worker] { work(worker, worker + 1, [](int) {}); });
-  } catch (const std::system_error&) {
-    // The system refuses another thread.
+  } catch (const std::exception&) {
+    // The system refuses another thread, or memory for it.
     first_own = static_cast<int>(helpers.size());
     for (int missing = first_own + 1; missing < workers; ++missing) turn_over.arrive_and_drop();
   }

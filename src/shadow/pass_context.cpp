@@ -28,8 +28,7 @@ const char* name_of(PassOwner::Kind kind) {
   return "technique";
 }
 
-// Takes that from the depths of what a matrix transforms, which it leaves as they are, to the bit, if it is 0.
-// `depth`: to be added to z of clip space.
+// Adds to clip-space z over w of what a matrix transforms; 0 leaves it as it is, to the bit.
 void move_along(glm::mat4& to_clip, float depth) {
   for (glm::length_t i = 0; i < 4; ++i) to_clip[i].z += depth * to_clip[i].w;
 }

@@ -114,7 +114,7 @@ Tiles scaled_tiles(const LightWork& scaled, const TilesOfAll& of_all) {
   program.set("size", glm::ivec2(viewport.width, viewport.height));
   program.set("size_of_all", glm::ivec2(of_all.viewport.width, of_all.viewport.height));
   program.set("scale", scaled.frame.scale);
-  program.set("has_rims", of_all.has_rims ? 1 : 0);
+  program.set("has_faces", of_all.has_faces ? 1 : 0);
   scaled.device.sampler({}).bind(unit_decisions);
   of_all.tiles.decisions.bind(unit_decisions);
   tiles.decisions.bind_image(0, GL_WRITE_ONLY);

@@ -77,12 +77,12 @@ std::uint32_t overlapping_tiles(const Tiles& tiles);
 // The same for all pixels of a view of which every n-th is computed (mask_scale.h); their list has room for all pixels.
 Tiles decide_all_tiles(const LightWork& work);
 // Those of every n-th pixel: decided where all tiles of all pixels that they lie in are, unless one of these faces away
-// and another is blocked. The others are listed apart where one of these is, and
-// with `has_rims` all.
+// and another is blocked. The others are listed apart where one of these is, and all of
+// them where the light has several faces.
 struct TilesOfAll {
   const Tiles& tiles;
   const Rect& viewport;
-  bool has_rims = false;
+  bool has_faces = false;
 };
 Tiles scaled_tiles(const LightWork& scaled, const TilesOfAll& of_all);
 gl::ProgramDesc scaled_tiles_program();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -38,8 +37,8 @@ void for_ranges(int threads, std::size_t count, const std::function<void(std::si
     std::vector<std::jthread> helpers;
     try {
       for (std::size_t i = 1; i < useful; ++i) helpers.emplace_back(run);
-    } catch (const std::system_error&) {
-      // The system refuses another thread: the existing ones do the work.
+    } catch (const std::exception&) {
+      // The system refuses another thread, or memory for it: the existing ones do the work.
     }
     run();
   }

@@ -162,6 +162,12 @@ TEST_F(CapiTest, PassesSayWhereTheLightIsAndWhatNeedNotBeDrawn) {
     int inside = 0, left_out = 0;
     for (const penumbra_caster_pass& pass : c_->drawn) {
       EXPECT_LT(glm::length(glm::make_vec4(pass.light_place) - places[i]), 1e-5f);
+      const auto depth_at = [&](const glm::vec3& place) {
+        const glm::vec4 clip = glm::make_mat4(pass.world_to_clip) * glm::vec4(place, 1);
+        return clip.z / clip.w;
+      };
+      // Nearer to the light depths are less, but of lamps greater: reversed.
+      EXPECT_EQ(depth_at(0.2f * lamp) < depth_at(-0.2f * lamp), i == 0);
       for (int at = 0; at < 4096; ++at) {
         const glm::dvec3 point(2 * (at & 15) - 15, 2 * (at >> 4 & 15) - 15, 2 * (at >> 8) - 15);
         const glm::dvec4 clip = glm::dmat4(glm::make_mat4(pass.world_to_clip)) * glm::dvec4(point, 1);

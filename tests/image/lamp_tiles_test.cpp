@@ -80,7 +80,6 @@ TEST_F(LampTiles, MissNoPenumbraOfSpotsNorTheEdgeOfTheirCones) {
   }
 }
 
-// Seams of the cube's faces, faded or not, wide or not, and with maps so coarse that two faces show other things.
 TEST_F(LampTiles, DecideMostOfWhatASpotLights) {
   for (const char* scene : {"posts", "knife_edge"}) {
     SCOPED_TRACE(scene);
@@ -90,6 +89,7 @@ TEST_F(LampTiles, DecideMostOfWhatASpotLights) {
   }
 }
 
+// Seams of the cube's faces, faded or not, wide or not, and with maps so coarse that two faces show other things.
 TEST_F(LampTiles, MissNoPenumbraWhereFacesMeet) {
   for (const char* seam : {"none", "fade", "dither"}) {
     for (const int size : {128, 1024}) {

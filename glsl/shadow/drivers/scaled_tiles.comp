@@ -8,7 +8,7 @@ layout(binding = 14) uniform usampler2D decisions_of_all;
 
 uniform ivec2 size, size_of_all;  // pixels
 uniform int scale;
-uniform int has_rims;  // the light has several faces: all tiles are listed apart
+uniform int has_faces;  // the light has several: all tiles are listed apart
 
 // Adds the pixels that a tile of all pixels decides, `at` that many tiles from the first one. Returns whether all are
 // lit.
@@ -33,7 +33,7 @@ void main() {
   if (any(greaterThanEqual(tile * tile_size, size))) return;
   Decision decision = Decision(uvec2(0u), 0.0, 0.0, 0);
   float blocked = 0.0;
-  bool decided = true, apart = has_rims != 0, has_layer = false, faces_away = false;
+  bool decided = true, apart = has_faces != 0, has_layer = false, faces_away = false;
   for (int i = 0; i < scale * scale; ++i) {
     ivec2 at = ivec2(i % scale, i / scale);
     if (any(greaterThanEqual((scale * tile + at) * tile_size, size_of_all))) continue;

@@ -1,6 +1,7 @@
 // bilateral_separable with a narrower kernel, which does not reach from a wide penumbra into a narrow one, and then a
 // mean along the line of equal visibility through the pixel. The first blurs the penumbra's profile half as much; the
-// second averages noise where the profile has none to lose. Neither changes a pixel outside of the penumbra.
+// second averages noise where the profile has none to lose. Neither changes a pixel that is lit or dark with its
+// neighbours on its plane.
 #include "shadow/drivers/filter.glsl"
 
 // Standard deviations of the kernels, as shares of that of filter.width: of the first two passes, and of the last one.
@@ -58,14 +59,15 @@ const uint settled_bit = 0x80000000u;
 const float same_plane = 0.5;  // at most, of plane_distance()
 const int least_alike = 4;     // pixels, of which one is the pixel itself
 
-// Whether a pixel lies outside of the penumbra: it is wholly lit or wholly dark, as are its neighbours on its plane.
+// Whether a pixel is taken to lie outside of the penumbra: it is wholly lit or wholly dark, as its neighbours are.
 bool is_settled(ivec2 pixel, uint texel, Surface surface) {
   uint own = texel & visibility_bits;
   if (own != 0u && own != visibility_bits) return false;
   bool same = true;
   int alike = 0;
   for (int i = 0; same && i < 9; ++i) {
-    ivec2 at = clamp(pixel + ivec2(i % 3, i / 3) - 1, lowest_pixel(), highest_pixel());
+    ivec2 at = pixel + ivec2(i % 3, i / 3) - 1;
+    if (any(lessThan(at, lowest_pixel())) || any(greaterThan(at, highest_pixel()))) continue;
     float depth = stored_depth_at(at);
     if (is_sky_depth(depth) || abs(plane_distance(surface, at - pixel, depth)) > same_plane) continue;
     same = (texel_at(at) & visibility_bits) == own;

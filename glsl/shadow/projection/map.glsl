@@ -5,8 +5,14 @@
 #include "shadow/projection/light_space.glsl"
 
 // Light-space depth, metres, for a depth as stored in the map.
-float stored_depth(float stored, LayerBlock map) { return map.near_depth + map.depth_range * stored; }
-vec4 stored_depths(vec4 stored, LayerBlock map) { return map.near_depth + map.depth_range * stored; }
+float stored_depth(float stored, LayerBlock map) {
+  precise float depth = map.near_depth + map.depth_range * stored;
+  return depth;
+}
+vec4 stored_depths(vec4 stored, LayerBlock map) {
+  precise vec4 depths = map.near_depth + map.depth_range * stored;
+  return depths;
+}
 float stored_depth(float stored, Light light) { return stored_depth(stored, light.map); }
 
 ivec2 last_texel() { return ivec2(shadow.map_size) - 1; }
@@ -79,7 +85,7 @@ FaceTexel face_texel_at(ivec2 texel, Light light) {
 float stored_in_face(sampler2DArray map, FaceTexel texel) {
   float stored = texelFetch(map, texel.at, 0).x;
   LayerBlock block = shadow.layers[0];
-  float along = (block.near_depth + block.depth_range * stored) / texel.seen.z;
+  float along = stored_depth(stored, block) / texel.seen.z;
   return stored < 1.0 ? (along - block.near_depth) / block.depth_range : 1.0;
 }
 
@@ -88,7 +94,7 @@ float stored_beyond(sampler2DArray map, ivec2 texel, float at_rim, Light light) 
   if (has_faces(light)) return stored_in_face(map, face_texel_at(texel, light));
   LayerBlock block = shadow.layers[0];
   float widest = -1.0 / clear_distance(shadow.light_extent);
-  return block.near_depth + block.depth_range * at_rim < widest ? at_rim : 1.0;
+  return stored_depth(at_rim, block) < widest ? at_rim : 1.0;
 }
 
 // Stored depth in a texel of the light's layer of a map, or beyond its rim.
