@@ -106,6 +106,7 @@ const gl::Program& use(gl::Pass& pass, const LightWork& work, const Step& step, 
   for (const GLuint unit : {unit_texels, unit_notes}) work.device.sampler({}).bind(unit);
   inputs.texels.bind(unit_texels);
   inputs.source.notes.bind(unit_notes);
+  program.set("mask_scale", work.frame.scale);
   return program;
 }
 

@@ -173,6 +173,23 @@ TEST_F(ShadowFilterQuality, APenumbraKeepsItsMeanAndItsWidth) {
   }
 }
 
+// Pixels of a mask of fewer pixels are twice as far apart: a kernel of as many of them would be twice as wide.
+TEST_F(ShadowFilterQuality, AMaskOfFewerPixelsIsNotBlurredMoreInANarrowPenumbra) {
+  params_->set("sun.angle", 2.25f);  // a penumbra of 20 pixels
+  use_every_texel();
+  const TriangleScene scene = half_plane(1.8f);
+  const auto widening = [&] {
+    const std::vector<double> raw = profile(draw(scene, "none")), filtered = profile(draw(scene, "isophote"));
+    return (crossing(filtered, 0.9) - crossing(filtered, 0.1)) / (crossing(raw, 0.9) - crossing(raw, 0.1)) - 1;
+  };
+  const double full = widening();
+  params_->set("mask.scale", 2);
+  const double scaled = widening();
+  std::printf("10 to 90 %% wider by %.2f %%, in a mask of fewer pixels by %.2f %%\n", 100 * full, 100 * scaled);
+  EXPECT_NEAR(scaled, full, 0.01);
+  EXPECT_LT(scaled, 0.03);
+}
+
 double rmse(const std::vector<float>& a, const std::vector<float>& b) {
   double sum = 0;
   for (size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i] - b[i]) * (a[i] - b[i]);

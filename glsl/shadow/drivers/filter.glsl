@@ -11,6 +11,9 @@ float stored_depth_at(ivec2 pixel);
 
 const int filter_pass = FILTER_PASS;
 
+// Pixels of the picture from one that is filtered to the next along rows and columns: see mask.scale.
+uniform int mask_scale;
+
 ivec2 lowest_pixel() { return ivec2(shadow.viewport.xy); }
 ivec2 highest_pixel() { return ivec2(shadow.viewport.xy + shadow.viewport.zw) - 1; }
 

@@ -1,12 +1,12 @@
 // bilateral_separable with a narrower kernel, which does not reach from a wide penumbra into a narrow one, and then a
-// mean along the line of equal visibility through the pixel. The first blurs the penumbra's profile half as much; the
+// mean along the line of equal visibility through the pixel. The first blurs the penumbra's profile less; the
 // second averages noise where the profile has none to lose. Neither changes a pixel that is lit or dark with its
 // neighbours on its plane.
 #include "shadow/drivers/filter.glsl"
 
 // Standard deviations of the kernels, as shares of that of filter.width: of the first two passes, and of the last one.
-const float across = 0.5, lengthwise = 0.7;
-// The first two are not made narrower than this, pixels.
+const float across = 0.35, lengthwise = 0.7;
+// The first two are not made narrower than this, pixels of the picture.
 const float least_across = 0.8;
 // Difference of visibility at which a neighbour on the line weighs e^-1/2: a line that bends is left there.
 const float range = 0.05;
@@ -89,6 +89,6 @@ uint filtered(ivec2 pixel) {
     return with_visibility(texel, mean_on_isophote(pixel, surface, sigma, texel_visibility(texel)));
   }
   int axis = min(filter_pass, 1);
-  float width = max(across * sigma[axis], min(sigma[axis], least_across));
+  float width = max(across * sigma[axis], min(sigma[axis], least_across / float(mask_scale)));
   return width < least_sigma ? texel : with_visibility(texel, mean_on_axis(axis, pixel, surface, width, distance_to));
 }
