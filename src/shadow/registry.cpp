@@ -126,7 +126,8 @@ std::vector<Preset> presets() {
   sparse.name = "slices_sparse";
   sparse.summary =
       "slices_denoised for a quarter of the pixels, and for the others where shadows are narrow or surfaces end.";
-  // The noise of a pixel is also that of those it stands for. Narrow penumbrae get as many slices as before.
+  // The noise of a pixel is also that of those it stands for. Narrow penumbrae get about as many slices as without
+  // scale.
   std::ranges::replace(sparse.assignments, "slices.azimuths=6", "slices.azimuths=12");
   std::ranges::replace(sparse.assignments, "slices.narrow=8", "slices.narrow=4");
   sparse.assignments.emplace_back("mask.scale=2");
